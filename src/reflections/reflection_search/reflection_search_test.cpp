@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/random.h"
+#include "base/test_directions.h"
 #include "reflections/reflection_search/ellipsoid.h"
 #include "reflections/reflection_search/exact_reflection.h"
 
@@ -20,17 +21,10 @@ constexpr int newton_steps = 12;
 constexpr float flag_angle = 0.005f;  // radians, 0.3 degrees: a point beyond it is not drawn
 constexpr double degree = 0.017453292519943295;
 
-vec3 chance_direction(Random& random) {
-  vec3 d;
-  do d = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-  while (length(d) > 1.0f || length(d) < 0.01f);
-  return normalize(d);
-}
-
 /// Viewer and vertex anywhere outside, the vertex at `reach` times the surface's distance from the centre.
 Task chance_task(const Ellipsoid& ellipsoid, Random& random, float reach) {
-  const vec3 viewer = random.uniform(1.5f, 8.0f) * ellipsoid.surface(chance_direction(random)).first;
-  return {viewer, reach * ellipsoid.surface(chance_direction(random)).first, vec3(0.0f)};
+  const vec3 viewer = random.uniform(1.5f, 8.0f) * ellipsoid.surface(random_direction(random)).first;
+  return {viewer, reach * ellipsoid.surface(random_direction(random)).first, vec3(0.0f)};
 }
 
 Point newton(Search& search, const Task& task) {
@@ -180,8 +174,8 @@ TEST(NewtonSearch, AWarmStartIsNearlyThere) {
   for (int i = 0; i < 300; ++i) {
     Task task = chance_task(ellipsoid, random, 2.0f);
     const Point before = newton(search, task);
-    task.viewer += 0.02f * chance_direction(random);  // a frame later
-    task.vertex += 0.02f * chance_direction(random);
+    task.viewer += 0.02f * random_direction(random);  // a frame later
+    task.vertex += 0.02f * random_direction(random);
     done += search.search_by_newton(task, before.direction, true, search.free_growth, 3, min_error).angle <
                     flag_angle
                 ? 1
@@ -198,14 +192,14 @@ TEST(NewtonSearch, InAConcaveBallEveryPointFoundIsARootAndAllCanBeFound) {
   Random random(7);
   std::size_t maximum = 0;
   for (int i = 0; i < 100; ++i) {
-    const Task task{random.uniform(0.2f, 0.9f) * chance_direction(random),
-                    random.uniform(0.2f, 0.9f) * chance_direction(random), vec3(0.0f)};
+    const Task task{random.uniform(0.2f, 0.9f) * random_direction(random),
+                    random.uniform(0.2f, 0.9f) * random_direction(random), vec3(0.0f)};
     const std::vector<glm::dvec3> truth = reflections_on_ball(task.viewer, task.vertex, true);
     maximum = std::max(maximum, truth.size());
     std::vector<bool> found(truth.size());
     for (int start = 0; start < 300; ++start) {
       const Point point =
-          search.search_by_newton(task, chance_direction(random), false, search.free_growth, 20, min_error);
+          search.search_by_newton(task, random_direction(random), false, search.free_growth, 20, min_error);
       if (!(point.angle < 1e-3f)) continue;
       double nearest = 10.0;
       for (std::size_t k = 0; k < truth.size(); ++k) {
@@ -275,7 +269,7 @@ TEST(MidpointSearch, TheBisectorLeadsNearerOnABallButNotAlways) {
       const Task task = chance_task(ellipsoid, random, 2.5f);
       const Point r = newton(search, task);
       if (r.angle > flag_angle || dot(task.vertex - r.position, r.normal) < 0.1f) continue;
-      const Search::SurfacePoint p = search.surface_at(r.position + 0.8f * chance_direction(random));
+      const Search::SurfacePoint p = search.surface_at(r.position + 0.8f * random_direction(random));
       const float length_m = distance(p.position, r.position);
       const vec3 along = search.bisector(task.viewer, task.vertex, p) - p.normal;
       const vec3 q = p.position + 0.9f * length_m * normalize(along);

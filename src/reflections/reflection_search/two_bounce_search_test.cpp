@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/random.h"
+#include "base/test_directions.h"
 #include "reflections/reflection_search/ellipsoid.h"
 #include "reflections/reflection_search/map_window.h"
 
@@ -11,8 +12,6 @@ namespace parvis::reflection_search {
 namespace {
 
 #include "reflections/reflection_search/search_limits.glsl"
-
-constexpr std::size_t start_count = search_start_count;
 
 /// Two ellipsoids, the second moved: the shaders' own search.
 struct Pair {
@@ -64,13 +63,6 @@ std::optional<glm::vec3> hit(const Ellipsoid& ellipsoid, glm::vec3 origin, glm::
   const double path = (-b - std::sqrt(root)) / a;
   if (path <= 0.0) return {};
   return origin + float(path) * direction;
-}
-
-glm::vec3 random_direction(Random& random) {
-  glm::vec3 d;
-  do d = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-  while (glm::length(d) > 1.0f || glm::length(d) < 0.01f);
-  return glm::normalize(d);
 }
 
 struct LightPath {

@@ -1,5 +1,6 @@
 #include "reflections/reflector_maps/map_starts.h"
 
+#include "base/test_directions.h"
 #include "reflections/reflection_search/reflection_search.h"
 #include "reflections/reflector_maps/test_reflectors.h"
 
@@ -41,8 +42,8 @@ TEST(MapStarts, SearchesBeginNextToTheirPoint) {
   constexpr int tasks = 1000;
   int found = 0;
   for (int i = 0; i < tasks; ++i) {  // hidden vertices, too
-    const glm::vec3 viewer = random.uniform(2.0f, 6.0f) * chance_direction(random),
-                    vertex = random.uniform(1.2f, 4.0f) * chance_direction(random);
+    const glm::vec3 viewer = random.uniform(2.0f, 6.0f) * random_direction(random),
+                    vertex = random.uniform(1.2f, 4.0f) * random_direction(random);
     const auto point = search.search_patch({viewer, vertex, counting.window.centre}, search.patch_kind(), -1);
     found += search.is_found(point) ? 1 : 0;
   }

@@ -70,7 +70,7 @@ class ReflectorCacheTest : public testing::Test {
 TEST(ReflectorFile, WhatIsWrittenIsRead) {
   const TestFolder folder;
   const Reflector written = small_reflector();
-  ASSERT_TRUE(write_reflector_file(folder.path() / "a.reflector", 7, written));
+  ASSERT_TRUE(write_reflector_content(folder.path() / "a.reflector", reflector_content(7, written)));
   const Result<Reflector> read = read_reflector_file(folder.path() / "a.reflector", 7);
   ASSERT_TRUE(read) << to_string(read.errors());
   expect_equal(*read, written);
@@ -79,7 +79,7 @@ TEST(ReflectorFile, WhatIsWrittenIsRead) {
 TEST(ReflectorFile, CutShortForeignOrOfAnotherVersionItIsRefusedWithTheReason) {
   const TestFolder folder;
   const fs::path file = folder.path() / "a.reflector";
-  ASSERT_TRUE(write_reflector_file(file, 7, small_reflector()));
+  ASSERT_TRUE(write_reflector_content(file, reflector_content(7, small_reflector())));
   const std::string whole = *read_file(file);
   const auto complaint = [&](const std::string& bytes) {
     EXPECT_TRUE(write_file(file, bytes));
@@ -98,7 +98,7 @@ TEST(ReflectorFile, OfAnotherReflectorOrWithIndicesThatLieItIsRefused) {
   const auto is_read = [&](const auto& spoil) {
     Reflector reflector = small_reflector();
     spoil(reflector);
-    EXPECT_TRUE(write_reflector_file(file, 7, reflector));  // the checksum is right
+    EXPECT_TRUE(write_reflector_content(file, reflector_content(7, reflector)));  // the checksum is right
     return bool(read_reflector_file(file, 7));
   };
   EXPECT_TRUE(is_read([](Reflector&) {}));

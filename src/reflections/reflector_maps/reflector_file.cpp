@@ -133,11 +133,6 @@ Status write_reflector_content(const std::filesystem::path& file, std::string_vi
   return write_sealed(file, kind, content);
 }
 
-Status write_reflector_file(const std::filesystem::path& file, std::uint64_t key,
-                            const Reflector& reflector) {
-  return write_reflector_content(file, reflector_content(key, reflector));
-}
-
 Result<Reflector> read_reflector_file(const std::filesystem::path& file, std::uint64_t key) {
   const Result<std::string> content = read_sealed(file, kind);
   if (!content) return content.errors();

@@ -16,8 +16,6 @@ namespace parvis::reflector_maps {
 std::string reflector_content(std::uint64_t key, const Reflector& reflector);
 /// Writes it; the file appears completely or not at all.
 Status write_reflector_content(const std::filesystem::path& file, std::string_view content);
-/// Both.
-Status write_reflector_file(const std::filesystem::path& file, std::uint64_t key, const Reflector& reflector);
 
 /// Errors say whether the file is missing, foreign, of another version, cut short or damaged, of another key,
 /// or holds indices and counts that lie: anybody can make a right checksum.

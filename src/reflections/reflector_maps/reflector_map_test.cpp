@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "base/test_data.h"
+#include "base/test_directions.h"
 #include "formats/meshes/assimp_reader.h"
 #include "reflections/reflection_search/exact_reflection.h"
 #include "reflections/reflection_search/reflection_search.h"
@@ -147,7 +148,7 @@ TEST(ReflectorMap, HoldsTheSurfaceOfABall) {
               ball.remarks[0].find("without area") != std::string::npos);  // the poles' slivers
   Random random(1);
   for (int i = 0; i < 2000; ++i) {
-    const glm::vec3 d = chance_direction(random);
+    const glm::vec3 d = random_direction(random);
     const auto [position, normal] = ball.maps[0].surface(3.0f * d);
     // The mesh has 96 rings: its triangles lie up to 0.001 within the ball.
     ASSERT_LT(glm::distance(position, glm::normalize(position)), 0.002f);
@@ -163,7 +164,7 @@ TEST(ReflectorMap, AnOpenOneIsClosedForTheSearchAndReflectsNothingThere) {
   ASSERT_FALSE(dome.remarks.empty());
   Random random(2);
   for (int i = 0; i < 1000; ++i) {
-    const auto [position, normal] = map.surface(chance_direction(random));
+    const auto [position, normal] = map.surface(random_direction(random));
     ASSERT_TRUE(std::isfinite(glm::length(position)));
     ASSERT_NEAR(glm::length(normal), 1.0f, 1e-4f);
   }
@@ -199,7 +200,7 @@ Judged judge(const Mesh& source, float reach) {
       const auto [a, b, c] = mesh.corners(t);
       const auto [na, nb, nc] = mesh.normals(t);
       const glm::vec3 at = (a + b + c) / 3.0f, normal = glm::normalize(na + nb + nc),
-                      to_viewer = chance_direction(random);
+                      to_viewer = random_direction(random);
       if (glm::dot(to_viewer, normal) < 0.2f) continue;
       const glm::vec3 viewer = at + 4.0f * radius * to_viewer,
                       vertex = at + reach * radius * glm::reflect(-to_viewer, normal);
@@ -303,7 +304,7 @@ TEST(ReflectorMap, AThinRimIsABandOfDirectionsAndShowsWhatItMirrors) {
     const glm::vec3 out(std::cos(turn), std::sin(turn), 0.0f);
     const std::optional<MetSurface> at =
         rays.along(map.window.centre, out + random.uniform(-0.01f, 0.01f) * out - map.window.centre);
-    const glm::vec3 viewer = 4.0f * chance_direction(random);
+    const glm::vec3 viewer = 4.0f * random_direction(random);
     if (!at || glm::dot(glm::normalize(viewer - at->position), at->normal) < 0.3f) continue;
     ++shown;
     const glm::vec3 vertex =
@@ -328,7 +329,7 @@ TEST(ReflectorMap, BeyondAWindowIsNoSurface) {
       if (map.is_whole_body()) continue;
       ++(map.window.extent > 0.0f ? windows : bands);
       for (int i = 0; i < 2000; ++i) {
-        const glm::vec3 d = chance_direction(random);
+        const glm::vec3 d = random_direction(random);
         const glm::vec3 looked_up = window_direction(map.window, window_uv(map.window, d));
         if (glm::distance(d, looked_up) < 1e-3f) continue;
         ASSERT_EQ(map.surface_kind(d), kind_closed);

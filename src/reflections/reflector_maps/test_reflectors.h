@@ -5,7 +5,6 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "base/random.h"
 #include "reflections/reflector_maps/reflector_map.h"
 #include "scene/data/test_scene.h"
 
@@ -24,14 +23,6 @@ inline Reflector reflector(const Mesh& mesh) {
   Result<Reflector> made = make_reflector(mesh, "kettle", 128);
   EXPECT_TRUE(made) << to_string(made.errors());
   return *std::move(made);
-}
-
-/// A uniformly distributed unit vector.
-inline glm::vec3 chance_direction(Random& random) {
-  glm::vec3 d;
-  do d = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-  while (glm::length(d) > 1.0f || glm::length(d) < 0.01f);
-  return glm::normalize(d);
 }
 
 }  // namespace parvis::reflector_maps

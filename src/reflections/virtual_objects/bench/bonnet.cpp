@@ -5,9 +5,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/colour.h"
+#include "bench/flip_between.h"
 #include "bench/judged_method.h"
 #include "graphics/gl/context.h"
-#include "graphics/reference/metrics.h"
 #include "graphics/shading/tone_curve.h"
 #include "places/paper_city/car.h"
 #include "places/paper_city/walker.h"
@@ -89,13 +89,9 @@ Status measure_bonnet(const BenchSetup& setup, Report& report) {
   house::Stage& stage = **made;
   methods::Settings near = methods::settings(stage.scene());
   near.own.get<reflector_maps::NearObjectSettings>().within_m = virtual_within_m;
-  std::vector<JudgedMethod> methods;
-  for (const auto& [name, reflection] :
-       {std::pair{"with virtual objects", near}, {"maps", methods::settings(stage.scene())}}) {
-    Result<JudgedMethod> method = judged_method(stage, name, reflection);
-    if (!method) return method.errors();
-    methods.push_back(*std::move(method));
-  }
+  const Result<std::vector<JudgedMethod>> methods =
+      judged_methods(stage, {{"with virtual objects", near}, {"maps", methods::settings(stage.scene())}});
+  if (!methods) return methods.errors();
   std::array<double, 2> sums{};
   for (const Meeting& meeting : meetings) {
     stage.play().scene.objects.back().world_from_model =
@@ -112,14 +108,14 @@ Status measure_bonnet(const BenchSetup& setup, Report& report) {
     const Image8 expected = shading::tone_mapped_picture(truth.radiance, stage.scene().exposure);
     const Image8 mask = changed_pixels(
         expected, shading::tone_mapped_picture(empty.radiance, stage.scene().exposure), truth.mirror_mask);
-    for (std::size_t m = 0; m < methods.size(); ++m) {
-      const Result<Image8> picture = picture_of(stage, methods[m], camera, w, h, window);
-      if (!picture) return picture.errors();
-      const auto difference = reference::compare(*picture, expected, mask);
-      if (!difference) return difference.errors();
+    for (std::size_t m = 0; m < methods->size(); ++m) {
+      const JudgedMethod& method = (*methods)[m];
+      const Result<double> flip =
+          flip_between(picture_of(stage, method, camera, w, h, window), expected, mask);
+      if (!flip) return flip.errors();
       report.note(fmt::format("a person at {:.2f} {:.2f}: FLIP in the bonnet {:.4f} {}", meeting.person.x,
-                              meeting.person.y, difference->flip, methods[m].name));
-      sums[m] += difference->flip;
+                              meeting.person.y, *flip, method.name));
+      sums[m] += *flip;
     }
   }
   report.add("bonnet_flip_over_mem", sums[0] / sums[1]);

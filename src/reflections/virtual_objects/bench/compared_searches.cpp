@@ -1,5 +1,7 @@
 #include "reflections/virtual_objects/bench/compared_searches.h"
 
+#include <limits>
+
 #include "bench/report.h"
 
 namespace parvis::bench {
@@ -7,7 +9,9 @@ namespace {
 
 constexpr double judged_share = 0.99;
 
+/// A search that never finds a point meets no target.
 double ratio_of(const std::vector<double>& over, const std::vector<double>& under) {
+  if (over.empty() || under.empty()) return std::numeric_limits<double>::infinity();
   return percentile(over, judged_share) / percentile(under, judged_share);
 }
 
@@ -19,11 +23,10 @@ void ComparedSearches::add(const SearchFigures& newton, const SearchFigures& mid
     const std::optional<double> by_newton = newton.angles_deg[i];
     const std::optional<double> by_midpoint = midpoint.angles_deg[i];
     const std::optional<double> by_control = control.angles_deg[i];
-    const bool is_found = by_newton && !newton.is_told[i];
-    not_found_by_newton.add(!is_found);
+    not_found_by_newton.add(!by_newton);
     not_found_by_midpoint.add(!by_midpoint);
     if (!by_midpoint) continue;
-    if (is_found) newton_deg.push_back(*by_newton), beside_newton_deg.push_back(*by_midpoint);
+    if (by_newton) newton_deg.push_back(*by_newton), beside_newton_deg.push_back(*by_midpoint);
     if (by_control) control_deg.push_back(*by_control), beside_control_deg.push_back(*by_midpoint);
   }
 }

@@ -18,17 +18,17 @@ struct Share {
   double percent() const { return all ? 100.0 * counted / all : 0.0; }
 };
 
-/// What searches make of the same reflections. A point that one of them does not find has no angle: it counts
-/// in that search's share of points not found, and in no percentile.
+/// What searches make of the same reflections. All are accepted by one rule, whatever they report of
+/// themselves: a search that ends where the fine mesh has no surface has no angle there. It counts in that
+/// search's share of points not found, and in no percentile.
 struct ComparedSearches {
   std::vector<double> newton_deg, beside_newton_deg;    ///< the default search, and the paper's nine steps
   std::vector<double> control_deg, beside_control_deg;  ///< more of the paper's steps, and nine
   Share not_found_by_newton, not_found_by_midpoint;
 
-  /// Figures of one body. The default search has found a point where it does not say otherwise; the paper's
-  /// says nothing, and has found one wherever it ends on the surface.
+  /// Figures of one body.
   void add(const SearchFigures& newton, const SearchFigures& midpoint, const SearchFigures& control);
-  /// 99th percentile of the default search's angles over that of the paper's.
+  /// 99th percentile of the default search's angles over that of the paper's; infinite without any.
   double newton_ratio() const;
   /// The same of more steps.
   double control_ratio() const;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/random.h"
+#include "base/test_directions.h"
 #include "reflections/reflection_search/ellipsoid.h"
 #include "reflections/reflection_search/exact_reflection.h"
 #include "reflections/reflection_search/reflection_search.h"
@@ -102,19 +103,12 @@ class ExplosionMap {
   std::vector<Pixel> pixels_ = std::vector<Pixel>(std::size_t(explosion_side) * explosion_side);
 };
 
-glm::vec3 chance_direction(Random& random) {
-  glm::vec3 d;
-  do d = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-  while (glm::length(d) > 1.0f || glm::length(d) < 0.01f);
-  return glm::normalize(d);
-}
-
 /// Vertices at 1.1 to 4 radii that the ellipsoid shows to the viewer.
 std::vector<glm::vec3> shown_vertices(glm::vec3 viewer, Random& random) {
   const Ellipsoid ellipsoid{radii};
   std::vector<glm::vec3> shown;
   while (shown.size() < vertices) {
-    const auto [at, normal] = ellipsoid.surface(chance_direction(random));
+    const auto [at, normal] = ellipsoid.surface(random_direction(random));
     const glm::vec3 to_viewer = glm::normalize(viewer - at);
     if (glm::dot(to_viewer, normal) < flattest) continue;
     const glm::vec3 reflected = glm::reflect(-to_viewer, normal);
@@ -148,7 +142,7 @@ Status measure_explosion_maps(const BenchSetup& setup, Report& report) {
   Figures far_map, two_maps, newton, midpoint;
   Random random(7);
   for (std::size_t i = 0; i < (setup.is_quick ? quick_viewers : viewers); ++i) {
-    const glm::vec3 viewer = random.uniform(2.0f, 6.0f) * chance_direction(random);
+    const glm::vec3 viewer = random.uniform(2.0f, 6.0f) * random_direction(random);
     const std::vector<glm::vec3> shown = shown_vertices(viewer, random);
     /// By a method that gives the direction of each vertex's reflection point from the middle; 0: none.
     const auto judge = [&](Figures& figures, const std::function<void(std::vector<glm::vec3>&)>& find) {

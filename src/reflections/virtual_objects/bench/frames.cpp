@@ -4,6 +4,7 @@
 #include <ctime>
 
 #include "bench/judged_method.h"
+#include "reflections/virtual_objects/bench/beside_rerendered.h"
 #include "reflections/virtual_objects/search_settings.h"
 
 namespace parvis::bench {
@@ -13,13 +14,11 @@ namespace {
 constexpr std::array cameras{"bowl in the kettle", "at the kettle"};
 constexpr int width = 480, height = 300;
 constexpr int turns = 2;  // each frame takes seconds in software
-constexpr int baseline_faces_px = 512;
 
-std::vector<std::pair<std::string, methods::Settings>> ways_to_reflect(const methods::Settings& by_area) {
-  methods::Settings every = by_area, baseline = by_area;
+std::vector<std::pair<std::string, methods::Settings>> ways_to_reflect(const scene::Scene& scene) {
+  const methods::Settings& by_area = methods::settings(scene);
+  methods::Settings every = by_area;
   every.uses_level_of_detail = false;
-  baseline.method = "rerendered_cube_map";
-  baseline.resolution = baseline_faces_px, baseline.uses_level_of_detail = false;
   std::vector<std::pair<std::string, methods::Settings>> variants{{"every vertex", every}};
   for (const float share : {0.143f, 0.096f, 0.055f, 0.041f}) {
     methods::Settings grid = every;
@@ -27,7 +26,7 @@ std::vector<std::pair<std::string, methods::Settings>> ways_to_reflect(const met
     variants.emplace_back(fmt::format("a grid of {:.1f} %", 100.0f * share), grid);
   }
   variants.emplace_back("grids by area", by_area);
-  variants.emplace_back("re-rendered cube maps", baseline);
+  variants.emplace_back("re-rendered cube maps", rerendered_baseline(scene));
   return variants;
 }
 
@@ -61,14 +60,10 @@ Status measure_view(house::Stage& stage, const std::vector<JudgedMethod>& method
 }  // namespace
 
 Status measure_frames(house::Stage& stage, Report& report) {
-  std::vector<JudgedMethod> methods;
-  for (const auto& [name, reflection] : ways_to_reflect(methods::settings(stage.scene()))) {
-    Result<JudgedMethod> method = judged_method(stage, name, reflection);
-    if (!method) return method.errors();
-    methods.push_back(*std::move(method));
-  }
+  const Result<std::vector<JudgedMethod>> methods = judged_methods(stage, ways_to_reflect(stage.scene()));
+  if (!methods) return methods.errors();
   for (const char* name : cameras)
-    if (Status status = measure_view(stage, methods, name, report); !status) return status;
+    if (Status status = measure_view(stage, *methods, name, report); !status) return status;
   return Done{};
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/random.h"
+#include "base/test_directions.h"
 #include "bench/report.h"
 #include "reflections/reflection_search/exact_reflection.h"
 
@@ -19,13 +20,6 @@ constexpr std::size_t max_maps = 200;
 constexpr std::array reaches{1.1f, 1.5f, 2.5f, 4.0f};
 constexpr float flattest = 0.1f;  // cosine of the steepest sight: beyond it a pixel spans most of the body
 constexpr double degrees = 57.29577951308232;
-
-glm::vec3 chance_direction(Random& random) {
-  glm::vec3 d;
-  do d = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-  while (glm::length(d) > 1.0f || glm::length(d) < 0.01f);
-  return glm::normalize(d);
-}
 
 /// Draws triangles by their area.
 class AreaDraw {
@@ -94,7 +88,7 @@ Result<JudgedBody> JudgedBody::make(std::string name, const Mesh& mesh, std::siz
   for (std::size_t tried = 0; body.reflections_.size() < count && tried < 100 * count; ++tried) {
     const auto [patch, triangle] = area.draw(random);
     const MetSurface at = chance_point(ordered, triangle, random);
-    const glm::vec3 to_viewer = chance_direction(random);
+    const glm::vec3 to_viewer = random_direction(random);
     if (glm::dot(to_viewer, at.normal) < flattest) continue;
     const glm::vec3 to_vertex = glm::reflect(-to_viewer, at.normal),
                     above = at.position + 1e-4f * radius * at.normal;

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "base/test_directions.h"
 #include "reflections/reflection_search/exact_reflection.h"
 #include "reflections/reflection_search/reflection_search.h"
 #include "reflections/reflector_maps/reflector_map.h"
@@ -47,18 +48,11 @@ struct JudgedShape {
   std::function<glm::dvec3(glm::dvec3)> normal;
 };
 
-glm::vec3 chance_direction(Random& random) {
-  glm::vec3 d;
-  do d = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-  while (glm::length(d) > 1.0f || glm::length(d) < 0.01f);
-  return glm::normalize(d);
-}
-
 JudgedShape torus() {
   return {"torus_p99_px", scene::torus(float(ring), float(tube), mesh_rings),
           [](Random& random) {
-            const glm::vec3 viewer = random.uniform(2.5f, 6.0f) * chance_direction(random);
-            return Task{viewer, random.uniform(1.6f, 5.0f) * chance_direction(random)};
+            const glm::vec3 viewer = random.uniform(2.5f, 6.0f) * random_direction(random);
+            return Task{viewer, random.uniform(1.6f, 5.0f) * random_direction(random)};
           },
           [](const Task& task) { return reflections_on_torus(ring, tube, task.viewer, task.vertex); },
           [](glm::dvec3 p) { return glm::normalize(p - ring * glm::normalize(glm::dvec3(p.x, p.y, 0.0))); }};
@@ -78,9 +72,9 @@ JudgedShape concave_ball() {
   return {"concave_p99_px", std::move(mesh),
           [](Random& random) {
             Task task;
-            do task.viewer = random.uniform(1.2f, 4.0f) * chance_direction(random);
+            do task.viewer = random.uniform(1.2f, 4.0f) * random_direction(random);
             while (task.viewer.z < 1.0f);
-            do task.vertex = random.uniform(0.1f, 3.0f) * chance_direction(random);
+            do task.vertex = random.uniform(0.1f, 3.0f) * random_direction(random);
             while (task.vertex.z < 0.1f && glm::length(task.vertex) > 0.95f);
             return task;
           },

@@ -7,12 +7,11 @@
 
 namespace parvis::bench {
 
-/// The paper's search on one map: nine steps of the midpoint method. It does not look up once more whether
-/// there is surface at its end.
+/// The paper's search on one map: nine steps of the midpoint method, from where they may begin at little
+/// cost. It does not look up once more whether there is surface at its end.
 MapSearch::PatchPoint by_midpoint(MapSearch& search, const MapSearch::ReflectionTask& task);
 
-/// Real bodies come from the shared data; where it is absent, ellipsoids alone are measured, and a row says
-/// so.
+/// Real bodies come from the shared data; where one is absent, the figures of all bodies are skipped.
 Status measure_search(const BenchSetup& setup, Report& report);
 
 }  // namespace parvis::bench

@@ -3,13 +3,13 @@
 #include <array>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "bench/flip_between.h"
 #include "bench/judged_method.h"
 #include "graphics/gl/context.h"
-#include "graphics/reference/metrics.h"
 #include "graphics/shading/tone_curve.h"
 #include "places/paper_city/mirror_bodies.h"
 #include "places/paper_city/walker.h"
-#include "reflections/methods/settings.h"
+#include "reflections/virtual_objects/bench/beside_rerendered.h"
 #include "reflections/virtual_objects/bench/changed_pixels.h"
 #include "scene/data/test_scene.h"
 
@@ -18,7 +18,6 @@ namespace {
 
 constexpr int width = 960, height = 720, quick_width = 480, quick_height = 360;
 constexpr int samples_per_pixel = 16;
-constexpr int baseline_faces_px = 512;
 
 void add_mirror(scene::Scene& scene, const std::shared_ptr<scene::Model>& model, glm::vec3 at,
                 float radius_m) {
@@ -85,17 +84,13 @@ Status measure_two_bounces(const BenchSetup& setup, Report& report) {
   if (!made) return made.errors();
   house::Stage& stage = **made;
   const methods::Settings twice = methods::settings(stage.scene());
-  methods::Settings once = twice, baseline = twice;
+  methods::Settings once = twice;
   once.bounces = 1;
-  baseline.method = "rerendered_cube_map";
-  baseline.resolution = baseline_faces_px, baseline.uses_level_of_detail = false;
-  std::vector<JudgedMethod> methods;
-  for (const auto& [name, reflection] :
-       {std::pair{"two bounces", twice}, {"one bounce", once}, {"re-rendered cube maps", baseline}}) {
-    Result<JudgedMethod> method = judged_method(stage, name, reflection);
-    if (!method) return method.errors();
-    methods.push_back(*std::move(method));
-  }
+  const Result<std::vector<JudgedMethod>> methods =
+      judged_methods(stage, {{"two bounces", twice},
+                             {"one bounce", once},
+                             {"re-rendered cube maps", rerendered_baseline(stage.scene())}});
+  if (!methods) return methods.errors();
   std::array<double, 3> in_mirrors{}, in_mirrors_in_mirrors{};
   for (const Place& place : places) {
     Camera camera;
@@ -107,20 +102,19 @@ Status measure_two_bounces(const BenchSetup& setup, Report& report) {
     const Image8 expected = toned(truth);
     const Image8 twice_mirrored =
         changed_pixels(expected, toned(truth_of(stage, camera, w, h, 1)), truth.mirror_mask);
-    for (std::size_t m = 0; m < methods.size(); ++m) {
-      const Result<Image8> picture = picture_of(stage, methods[m], camera, w, h, {0, 0, w, h});
-      if (!picture) return picture.errors();
-      const auto difference = reference::compare(*picture, expected, truth.mirror_mask),
-                 difference_twice = reference::compare(*picture, expected, twice_mirrored);
-      if (!difference) return difference.errors();
-      if (!difference_twice) return difference_twice.errors();
-      in_mirrors[m] += difference->flip / places.size();
-      in_mirrors_in_mirrors[m] += difference_twice->flip / places.size();
+    for (std::size_t m = 0; m < methods->size(); ++m) {
+      const Result<Image8> picture = picture_of(stage, (*methods)[m], camera, w, h, {0, 0, w, h});
+      const Result<double> flip = flip_between(picture, expected, truth.mirror_mask),
+                           flip_twice = flip_between(picture, expected, twice_mirrored);
+      if (!flip) return flip.errors();
+      if (!flip_twice) return flip_twice.errors();
+      in_mirrors[m] += *flip / places.size();
+      in_mirrors_in_mirrors[m] += *flip_twice / places.size();
     }
   }
-  for (std::size_t m = 0; m < methods.size(); ++m)
-    report.note(fmt::format("{}: FLIP {:.4f} inside mirrors, {:.4f} where they show mirrors", methods[m].name,
-                            in_mirrors[m], in_mirrors_in_mirrors[m]));
+  for (std::size_t m = 0; m < methods->size(); ++m)
+    report.note(fmt::format("{}: FLIP {:.4f} inside mirrors, {:.4f} where they show mirrors",
+                            (*methods)[m].name, in_mirrors[m], in_mirrors_in_mirrors[m]));
   constexpr double max_ratio = 0.4;
   report.add("two_bounce_flip_over_rerendered", in_mirrors_in_mirrors[0] / in_mirrors_in_mirrors[2],
              up_to(max_ratio));
