@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "graphics/gl/objects.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/metrics.h"
@@ -150,6 +151,33 @@ TEST_F(PlantDisplay, TheBudgetHolds) {
   }
   scene_.data<PlantDetail>().is_full = true;
   EXPECT_GT(selection().statistics().all(), 5'000'000u) << "control: the real geometry";
+}
+
+TEST_F(PlantDisplay, AsManyPrimitivesAreDrawnAsAreChosen) {
+  for (int i = 0; i < 12; ++i) plant("oak", {5.0f * float(i % 4 - 2), 5.0f * float(i / 4), 0});
+  look_from(20.0f);
+  const auto shown = renderer();
+  const gl::Query query = gl::Query::create(GLenum(GL_PRIMITIVES_GENERATED));
+  const auto drawn_primitives = [&] {
+    shown->begin_frame(scene_, camera_);
+    shown->prepare_main_view(camera_, width, height);
+    glBeginQuery(GL_PRIMITIVES_GENERATED, query.name());
+    shown->draw_main_view();
+    glEndQuery(GL_PRIMITIVES_GENERATED);
+    GLuint64 count = 0;
+    glGetQueryObjectui64v(query.name(), GL_QUERY_RESULT, &count);
+    return std::size_t(count);
+  };
+  std::vector<std::size_t> with_plants, chosen;
+  for (const int budget : {20'000, 100'000}) {
+    scene_.data<PlantDetail>().max_primitives = budget;
+    with_plants.push_back(drawn_primitives());
+    chosen.push_back(selection().statistics().all());
+  }
+  for (ScenePlant& hidden : scene_.data<ScenePlants>().items) hidden.is_visible = false;
+  const std::size_t others = drawn_primitives();
+  for (std::size_t i = 0; i < chosen.size(); ++i) EXPECT_EQ(with_plants[i] - others, chosen[i]);
+  EXPECT_GT(chosen[1], chosen[0]);
 }
 
 TEST_F(PlantDisplay, TheBudgetHoldsAmongCrowns) {

@@ -2,30 +2,18 @@
 #include <gtest/gtest.h>
 
 #include "base/memory_budget.h"
-#include "base/test_folder.h"
 #include "life/vegetation/room.h"
 #include "life/vegetation/scene_plant.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/room.h"
-#include "scene/script/scene_loader.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::vegetation {
 namespace {
 
-class PlantNode : public testing::Test {
+class PlantNode : public scene::ScriptTest<> {
  protected:
   PlantNode() { script::furnish(house_), furnish(house_); }
-  Result<scene::LoadedScene> load(const std::string& script) {
-    folder_.write("scene.xp", script);
-    return scene::load_scene(folder_.path() / "scene.xp", house_.get<scene::NodeRegistry>(), {});
-  }
-  std::string errors_of(const std::string& script) {
-    const auto loaded = load(script);
-    return loaded ? "" : to_string(loaded.errors());
-  }
-
-  TestFolder folder_;
-  House house_;
 };
 
 TEST_F(PlantNode, EqualPlantsShareTheirMemory) {

@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "base/reduction.h"
+#include "graphics/gl/objects.h"
 #include "graphics/render/light_source.h"
 #include "graphics/shading/tone_curve.h"
 #include "life/vegetation/plant_drawable.h"
@@ -57,7 +58,8 @@ Result<scene::Scene> make_scene(Report& report) {
 
 }  // namespace
 
-void PlantCounter::update(const scene::Scene& scene) {
+void CountedPlants::update(const scene::Scene& scene) {
+  plants_drawn_->update(scene);
   if (!is_counting_) return;
   detail_ = scene.data<PlantDetail>();
   const auto& shadows = scene.data<scene::SunShadows>();
@@ -70,14 +72,28 @@ void PlantCounter::update(const scene::Scene& scene) {
   }
 }
 
-void PlantCounter::prepare(const render::View& view, const render::Culling& culling) {
+void CountedPlants::prepare(const render::View& view, const render::Culling& culling) {
+  plants_drawn_->prepare(view, culling);
   if (!is_counting_) return;
   if (view.kind != render::ViewKind::main && view.kind != render::ViewKind::shadow) return;
   selection_.choose(plants_, view, culling, detail_);
   views_.push_back({view.kind, selection_.statistics(), selection_.scale()});
 }
 
-std::vector<PlantCounter::View> PlantCounter::end() {
+void CountedPlants::draw(const render::View& view, render::Pass pass) {
+  // The main view is drawn after others that were prepared later.
+  const auto counted = std::ranges::find(views_.rbegin(), views_.rend(), view.kind, &View::kind);
+  if (counted == views_.rend()) return plants_drawn_->draw(view, pass);
+  const gl::Query primitives = gl::Query::create(GLenum(GL_PRIMITIVES_GENERATED));
+  glBeginQuery(GL_PRIMITIVES_GENERATED, primitives.name());
+  plants_drawn_->draw(view, pass);
+  glEndQuery(GL_PRIMITIVES_GENERATED);
+  GLuint64 count = 0;
+  glGetQueryObjectui64v(primitives.name(), GL_QUERY_RESULT, &count);
+  counted->drawn += std::size_t(count);
+}
+
+std::vector<CountedPlants::View> CountedPlants::end() {
   is_counting_ = false;
   return std::exchange(views_, {});
 }
@@ -88,12 +104,20 @@ Result<std::unique_ptr<Grove>> Grove::create(const BenchSetup& setup, Report& re
   std::unique_ptr<Grove> grove(new Grove());
   grove->scene_ = *std::move(scene);
   render::Drawables drawables;
-  drawables.add(vegetation::scene_plants_kind());
+  render::DrawableKind kind = vegetation::scene_plants_kind();
+  kind.make = [make = kind.make, plants = &grove->plants_](
+                  const scene::Scene& of, int first_thing) -> Result<std::unique_ptr<render::Drawable>> {
+    Result<std::unique_ptr<render::Drawable>> made = make(of, first_thing);
+    if (!made) return made;
+    auto counted = std::make_unique<CountedPlants>(*std::move(made));
+    *plants = counted.get();
+    return std::unique_ptr<render::Drawable>(std::move(counted));
+  };
+  drawables.add(std::move(kind));
   drawables.furnish(grove->scene_);
   auto renderer = render::Renderer::create(grove->scene_, drawables, setup.house.get<render::Lights>().make);
   if (!renderer) return renderer.errors();
   grove->renderer_ = *std::move(renderer);
-  grove->renderer_->add(&grove->counter_);
   return grove;
 }
 
@@ -143,16 +167,31 @@ Result<Image8> Grove::true_picture(const Camera& camera) {
   return shading::tone_mapped_picture(reduced(renderer_->read_radiance(), supersample), scene_.exposure);
 }
 
-Result<std::vector<PlantCounter::View>> Grove::counted(const Camera& camera) {
+Result<std::vector<CountedPlants::View>> Grove::counted(const Camera& camera) {
   turn_sun(minute_of_sun_deg);
-  counter_.begin();
+  plants_->begin();
   const Status status = draw(camera);
-  std::vector<PlantCounter::View> views = counter_.end();
+  std::vector<CountedPlants::View> views = plants_->end();
   if (!status) return status.errors();
+  for (const CountedPlants::View& view : views)
+    if (view.drawn != view.chosen.all())
+      return error("a view draws {} primitives of plants, and has chosen {}", view.drawn, view.chosen.all());
   return views;
 }
 
-PlantCounter::View Grove::chosen(const Camera& camera, const PlantDetail& detail) const {
+vegetation::PlantDetail Grove::detail_at(const Camera& camera, float scale) const {
+  constexpr int no_budget = 1 << 30;
+  vegetation::PlantDetail few, many;
+  few.max_primitives = 1, many.max_primitives = no_budget;
+  while (many.max_primitives - few.max_primitives > 1) {
+    vegetation::PlantDetail middle;
+    middle.max_primitives = few.max_primitives + (many.max_primitives - few.max_primitives) / 2;
+    (chosen(camera, middle).scale <= scale ? few : many) = middle;
+  }
+  return few;
+}
+
+CountedPlants::View Grove::chosen(const Camera& camera, const PlantDetail& detail) const {
   const render::View view = render::camera_view(camera, 0, width, height);
   std::vector<vegetation::PlacedPlant> plants;
   for (const vegetation::ScenePlant& plant : vegetation::scene_plants(scene_))

@@ -1,6 +1,9 @@
 // A grove of oaks on a lawn, drawn by the renderer, and what its views draw of them.
 #pragma once
 
+#include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "bench/benches.h"
@@ -11,21 +14,28 @@
 
 namespace parvis::bench {
 
-/// Counts what every view of a frame draws of all plants: the main one and those of shadow maps. Draws
-/// nothing.
-class PlantCounter final : public render::Drawable {
+/// The drawable of all plants, which counts what it draws in each view of a frame: the main one and those of
+/// shadow maps.
+class CountedPlants final : public render::Drawable {
  public:
   /// Of one view.
   struct View {
     render::ViewKind kind;
-    vegetation::PlantStatistics drawn;
-    float scale;  ///< below 1 the budget was kept by it: PlantSelection::scale
+    vegetation::PlantStatistics chosen;  ///< what the view is to draw
+    float scale;                         ///< below 1 the budget is kept by it: PlantSelection::scale
+    std::size_t drawn = 0;               ///< primitives that OpenGL has counted
   };
 
+  explicit CountedPlants(std::unique_ptr<render::Drawable> plants) : plants_drawn_(std::move(plants)) {}
+
   void update(const scene::Scene& scene) override;
-  render::Extents extents() const override { return {}; }
+  render::Extents extents() const override { return plants_drawn_->extents(); }
+  std::span<render::QualityWish> quality_wishes(const render::View& view,
+                                                const render::Culling& culling) override {
+    return plants_drawn_->quality_wishes(view, culling);
+  }
   void prepare(const render::View& view, const render::Culling& culling) override;
-  void draw(const render::View& /*view*/, render::Pass /*pass*/) override {}
+  void draw(const render::View& view, render::Pass pass) override;
 
   /// Counts from now on.
   void begin() { is_counting_ = true; }
@@ -33,6 +43,7 @@ class PlantCounter final : public render::Drawable {
   std::vector<View> end();
 
  private:
+  std::unique_ptr<render::Drawable> plants_drawn_;
   bool is_counting_ = false;
   std::vector<vegetation::PlacedPlant> plants_;
   vegetation::PlantDetail detail_;
@@ -73,15 +84,19 @@ class Grove {
   static constexpr int supersample = 4;
 
   /// What the main view of a camera would draw in some detail; nothing is drawn.
-  PlantCounter::View chosen(const Camera& camera, const vegetation::PlantDetail& detail) const;
-  /// What all views of a frame draw whose shadow maps are drawn again, the sun having moved.
-  Result<std::vector<PlantCounter::View>> counted(const Camera& camera);
+  CountedPlants::View chosen(const Camera& camera, const vegetation::PlantDetail& detail) const;
+  /// The detail by which a picture of `camera` shows plants as if its resolution were smaller by `scale`, at
+  /// most 1: the largest budget that is kept by no larger a factor.
+  vegetation::PlantDetail detail_at(const Camera& camera, float scale) const;
+  /// What all views of a frame draw whose shadow maps are drawn again, the sun having moved. Fails where one
+  /// of them draws other primitives than it has chosen.
+  Result<std::vector<CountedPlants::View>> counted(const Camera& camera);
 
  private:
   Grove() = default;
 
   scene::Scene scene_;
-  PlantCounter counter_;
+  CountedPlants* plants_ = nullptr;  ///< the renderer's
   std::unique_ptr<render::Renderer> renderer_;
 };
 

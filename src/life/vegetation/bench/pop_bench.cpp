@@ -5,12 +5,10 @@
 #include <functional>
 #include <vector>
 
-#include "graphics/reference/metrics.h"
+#include "bench/flip_between.h"
 
 namespace parvis::bench {
 namespace {
-
-using vegetation::PlantDetail;
 
 /// A step of a viewer: a fiftieth of the way to the tree, as a walker's in a tenth of a second from seven
 /// metres.
@@ -32,30 +30,13 @@ Camera looking_at(glm::vec3 crown, float distance_m) {
   return camera;
 }
 
-/// The detail by which a picture of `camera` shows plants as if its resolution were smaller by `scale`, at
-/// most 1: the largest budget that is kept by no larger a factor.
-PlantDetail detail_at(const Grove& grove, const Camera& camera, float scale) {
-  constexpr int no_budget = 1 << 30;
-  PlantDetail few, many;
-  few.max_primitives = 1, many.max_primitives = no_budget;
-  while (many.max_primitives - few.max_primitives > 1) {
-    PlantDetail middle;
-    middle.max_primitives = few.max_primitives + (many.max_primitives - few.max_primitives) / 2;
-    (grove.chosen(camera, middle).scale <= scale ? few : many) = middle;
-  }
-  return few;
-}
-
 /// FLIP between the picture of a camera and the same with the forms of another scale of the resolution: what
 /// changes by the forms alone, while nothing in the picture moves.
 Result<double> pop(Grove& grove, const Camera& camera, float other_scale) {
   const Result<Image8> picture = grove.picture(camera),
-                       with_other_forms = grove.picture(camera, detail_at(grove, camera, other_scale));
-  if (!picture) return picture.errors();
+                       with_other_forms = grove.picture(camera, grove.detail_at(camera, other_scale));
   if (!with_other_forms) return with_other_forms.errors();
-  const Result<reference::Difference> difference = reference::compare(*picture, *with_other_forms);
-  if (!difference) return difference.errors();
-  return difference->flip;
+  return flip_between(picture, *with_other_forms);
 }
 
 /// The largest pops of many views.
