@@ -166,6 +166,22 @@ std::string camera(const char* name, const View& view) {
                      point(view.target));
 }
 
+/// The sun of a place in the afternoon, in its summer.
+std::string day_light(const std::optional<glm::dvec2>& place_deg) {
+  constexpr glm::dvec2 anywhere_deg(10.0, 48.0);
+  constexpr int june_solstice = 172, december_solstice = 355;
+  constexpr double degrees_per_hour = 15.0, summer_time_h = 1.0;
+  const auto rounded = [](double value) {
+    const double hundredths = std::round(100.0 * value);
+    return hundredths == 0.0 ? 0.0 : hundredths / 100.0;  // no -0
+  };
+  const glm::dvec2 deg = place_deg.value_or(anywhere_deg);
+  return fmt::format(
+      "dayLight(latitude={}, longitude={}, standardMeridian={:.0f}, julianDay={}, timeOfDay=16)\n",
+      rounded(deg.y), rounded(deg.x), std::floor(deg.x / degrees_per_hour + 0.5) + summer_time_h,
+      deg.y < 0.0 ? december_solstice : june_solstice);
+}
+
 /// "quarter" of quarter.city.json.
 std::string stem_of(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
@@ -186,7 +202,8 @@ bool is_bare_file(const std::filesystem::path& file) {
   return !extension.empty() && extension != ".xp";
 }
 
-std::string bare_scene(const Model& model, const std::string& file) {
+std::string bare_scene(const Model& model, const std::string& file,
+                       const std::optional<glm::dvec2>& place_deg) {
   scene::Scene scene;
   scene.objects.emplace_back();
   scene.objects.back().model = std::make_shared<const Model>(model);
@@ -207,11 +224,9 @@ std::string bare_scene(const Model& model, const std::string& file) {
   script += is_town ? "terrain_plane()\n" : "terrain_plane(surface=\"paving\", beyond=\"lawn\")\n";
   if (has_surface(model, "SolitaryVegetationObject")) script += "grownTrees(of=\"place\")\n";
   script += nodes_of_kerbs(model, surfaces);
-  script +=
-      "\n// A summer's afternoon.\n"
-      "dayLight(latitude=48, longitude=10, standardMeridian=2, julianDay=172, timeOfDay=16)\n"
-      "air(haze_per_m=0.0004)\n"
-      "shadowMap()\n";
+  script += "\n// A summer's afternoon.\n" + day_light(place_deg) +
+            "air(haze_per_m=0.0004)\n"
+            "shadowMap()\n";
   if (is_exhibit) script += "reflection(method=\"rerendered_cube_map\", resolution=256)\n";
   script += fmt::format("\n{}{}", camera("street", street), camera("overview", above));
   return script;
@@ -225,11 +240,12 @@ Result<WrittenScene> write_bare_scene(const std::filesystem::path& file, const f
   const std::filesystem::path here = std::filesystem::canonical(folder, problem);
   if (problem) return error("{}: {}", folder.string(), problem.message());
   Errors warnings;
-  const Result<Model> model = readers.read(found, {}, warnings);
+  std::optional<glm::dvec2> place_deg;
+  const Result<Model> model = readers.read(found, {.place_deg = &place_deg}, warnings);
   if (!model) return model.errors();
   const bool is_below = lies_below(found, here);
   const std::string script =
-      bare_scene(*model, (is_below ? found.lexically_relative(here) : found.filename()).string());
+      bare_scene(*model, (is_below ? found.lexically_relative(here) : found.filename()).string(), place_deg);
   for (int i = 1; i <= max_scripts; ++i) {
     WrittenScene written{folder / fmt::format("{}{}.xp", stem_of(file), i > 1 ? fmt::format("-{}", i) : ""),
                          is_below ? "" : found.parent_path()};

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
 #include <string>
 
 #include "base/result.h"
@@ -13,8 +15,10 @@ namespace parvis::dressing {
 /// True if the file is not a scene script (.xp): a model, to be shown by itself.
 bool is_bare_file(const std::filesystem::path& file);
 
-/// The script of a scene that shows `model`; `file` is what the script calls its file.
-std::string bare_scene(const scene::Model& model, const std::string& file);
+/// The script of a scene that shows `model`; `file` is what the script calls its file. The sun is that of
+/// `place_deg` (degrees: east, north); without it, of somewhere in Europe.
+std::string bare_scene(const scene::Model& model, const std::string& file,
+                       const std::optional<glm::dvec2>& place_deg = {});
 
 /// A script that was made up, and the folder that the scene has to be given as data.
 struct WrittenScene {

@@ -55,6 +55,20 @@ TEST(BareFile, BareVolumesAreDressed) {
   EXPECT_EQ(script.find("TINRelief"), std::string::npos) << "nothing that would match nothing";
 }
 
+TEST(BareFile, TheSunIsThatOfThePlace) {
+  const Model model = street_of_houses();
+  const std::string unknown = "dayLight(latitude=48, longitude=10, standardMeridian=2, julianDay=172, ";
+  EXPECT_NE(bare_scene(model, "a.gml").find(unknown), std::string::npos);
+  const std::string tokyo = bare_scene(model, "a.gml", glm::dvec2(139.767, 35.681));
+  EXPECT_NE(tokyo.find("dayLight(latitude=35.68, longitude=139.77, standardMeridian=10, julianDay=172, "),
+            std::string::npos)
+      << tokyo;
+  const std::string sydney = bare_scene(model, "a.gml", glm::dvec2(151.2, -33.87));
+  EXPECT_NE(sydney.find("latitude=-33.87, longitude=151.2, standardMeridian=11, julianDay=355, "),
+            std::string::npos)
+      << sydney;
+}
+
 TEST(BareFile, WallsThatAreNoHousesHaveNoWindows) {
   Model model = street_of_houses();
   EXPECT_EQ(bare_scene(model, "a.city.json").find("openings"), std::string::npos);
@@ -117,6 +131,9 @@ TEST(BareFile, LoadsWithoutAWarningAndHasGroundToTheHorizon) {
       write_bare_scene(folder.path() / "crossroads.osm", readers(), folder.path());
   ASSERT_TRUE(written) << to_string(written.errors());
   EXPECT_EQ(written->script.filename(), "crossroads.xp");
+  const Result<std::string> script = read_file(written->script);
+  ASSERT_TRUE(script);
+  EXPECT_EQ(script->find("latitude=48, longitude=10,"), std::string::npos) << "the map lies elsewhere";
   const Result<scene::LoadedScene> loaded = scene::load_scene(written->script, house::node_registry());
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   EXPECT_EQ(to_string(loaded->warnings), "");

@@ -20,7 +20,6 @@ enum class KindSheet : std::uint8_t {
   gates,    ///< a gate in each second bay, no windows
   nave      ///< tall windows with round tops, as high as the sheet
 };
-inline constexpr std::size_t kind_sheet_count = 5;
 
 /// Bays and rows on a sheet, and the size of one as painted.
 struct KindLayout {
