@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
-#include "base/test_folder.h"
 #include "formats/gltf/gltf_writer.h"
 #include "formats/readers/readers.h"
 #include "life/traffic/demand.h"
@@ -11,16 +10,18 @@
 #include "places/car_bodies/car_copy.h"
 #include "places/car_bodies/car_script.h"
 #include "places/car_bodies/test_car.h"
-#include "scene/script/scene_loader.h"
 #include "scene/script/test_house.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::car_bodies {
 namespace {
 
 using namespace test;
 
-class CarProposal : public ::testing::Test {
+class CarProposal : public scene::ScriptTest<> {
  protected:
+  CarProposal() : ScriptTest(scene::test_house()) {}
+
   scene::Model read(const std::string& file) {
     Errors warnings;
     Result<scene::Model> model = house_.get<formats::Readers>().read(folder_.path() / file, {}, warnings);
@@ -38,8 +39,7 @@ class CarProposal : public ::testing::Test {
     const Result<std::string> script = car_script(read(file), file);
     EXPECT_TRUE(script) << (script ? "" : to_string(script.errors()));
     script_ = script ? *script : "";
-    const auto loaded =
-        scene::load_scene(folder_.write("car.xp", script_), house_.get<scene::NodeRegistry>(), {});
+    const auto loaded = load(script_);
     EXPECT_TRUE(loaded) << (loaded ? "" : to_string(loaded.errors())) << script_;
     if (!loaded) return {};
     EXPECT_TRUE(loaded->warnings.empty()) << to_string(loaded->warnings) << script_;
@@ -47,10 +47,8 @@ class CarProposal : public ::testing::Test {
     return *loaded->scene.objects.at(0).model;
   }
 
-  bool says(const std::string& piece) const { return script_.find(piece) != std::string::npos; }
+  bool says(const std::string& piece) const { return holds(script_, piece); }
 
-  TestFolder folder_;
-  House house_ = scene::test_house();
   std::string script_;
   glm::mat4 placed_{1.0f};
 };

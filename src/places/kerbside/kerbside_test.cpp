@@ -6,12 +6,11 @@
 #include <cmath>
 #include <set>
 
-#include "base/test_folder.h"
 #include "house/rooms.h"
 #include "life/vegetation/scene_plant.h"
 #include "places/kerbside/map_trees.h"
 #include "scene/script/live_scene.h"
-#include "scene/script/scene_loader.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::kerbside {
 namespace {
@@ -24,28 +23,17 @@ constexpr const char* streets =
     "paving()\n"
     "camera(name=\"eye\", position=\"0 -9 2\", target=\"0 0 1\")\n";
 
-class Kerbside : public testing::Test {
+class Kerbside : public scene::ScriptTest<> {
  protected:
-  scene::Scene load(const std::string& text) {
-    folder_.write("scene.xp", streets + text);
-    Result<scene::LoadedScene> loaded =
-        scene::load_scene(folder_.path() / "scene.xp", house::node_registry());
-    EXPECT_TRUE(loaded) << to_string(loaded.errors());
-    return loaded ? std::move(loaded->scene) : scene::Scene();
-  }
-  std::string errors_of(const std::string& text) {
-    folder_.write("scene.xp", streets + text);
-    const auto loaded = scene::load_scene(folder_.path() / "scene.xp", house::node_registry());
-    return loaded ? "" : to_string(loaded.errors());
-  }
+  Kerbside() : ScriptTest(house::all_rooms()) {}
+  scene::Scene load(const std::string& text) const { return scene_of(streets + text); }
+  std::string errors_of(const std::string& text) const { return ScriptTest::errors_of(streets + text); }
   static std::vector<scene::Object> called(const scene::Scene& scene, const std::string& name) {
     std::vector<scene::Object> found;
     for (const scene::Object& object : scene.objects)
       if (object.name.starts_with(name)) found.push_back(object);
     return found;
   }
-
-  TestFolder folder_;
 };
 
 glm::vec2 place_of(const scene::Object& object) { return glm::vec2(object.world_from_model[3]); }
@@ -84,7 +72,7 @@ TEST_F(Kerbside, ANameAndAKindContradictEachOther) {
   const std::string errors = errors_of(post + "streetTrees(of=\"post\", kind=\"plane\")\n");
   EXPECT_NE(errors.find("scene.xp:7"), std::string::npos) << errors;
   EXPECT_NE(errors.find("one of the two"), std::string::npos) << errors;
-  EXPECT_EQ(errors_of(post + "streetTrees(of=\"post\")\n"), "");
+  load(post + "streetTrees(of=\"post\")\n");
 }
 
 TEST_F(Kerbside, NothingStandsInGrownPlants) {
@@ -115,11 +103,10 @@ TEST_F(Kerbside, NothingStandsInTunnels) {
           "<tag k=\"tunnel\" v=\"{}\"/></way>",
           i, i, i + 1, i == 2 ? tunnel : "no");
     folder_.write("map.osm", map + "</osm>");
-    folder_.write("scene.xp",
-                  "model(name=\"map\", file=\"map.osm\")\nstreets(of=\"map\")\n"
-                  "streetFurniture(kind=\"lamps\", spacing=6)\n"
-                  "camera(name=\"eye\", position=\"0 -9 2\", target=\"0 0 1\")\n");
-    const auto loaded = scene::load_scene(folder_.path() / "scene.xp", house::node_registry());
+    const auto loaded = ScriptTest::load(
+        "model(name=\"map\", file=\"map.osm\")\nstreets(of=\"map\")\n"
+        "streetFurniture(kind=\"lamps\", spacing=6)\n"
+        "camera(name=\"eye\", position=\"0 -9 2\", target=\"0 0 1\")\n");
     EXPECT_TRUE(loaded) << to_string(loaded.errors());
     return loaded ? called(loaded->scene, "street lamp") : std::vector<scene::Object>();
   };
@@ -176,11 +163,10 @@ constexpr const char* map_of_a_tree =
 
 TEST_F(Kerbside, TreesOfAMapStayTakenWhenTheMapIsRebuilt) {
   folder_.write("map.osm", map_of_a_tree);
-  folder_.write("scene.xp", std::string(streets) +
-                                "model(name=\"map\", file=\"map.osm\", positions=\"0 0 0, 300 0 0\")\n"
-                                "model(name=\"as it was\", file=\"map.osm\")\n"
-                                "grownTrees(of=\"map*\")\n");
-  Result<scene::LoadedScene> loaded = scene::load_scene(folder_.path() / "scene.xp", house::node_registry());
+  auto loaded = ScriptTest::load(std::string(streets) +
+                                 "model(name=\"map\", file=\"map.osm\", positions=\"0 0 0, 300 0 0\")\n"
+                                 "model(name=\"as it was\", file=\"map.osm\")\n"
+                                 "grownTrees(of=\"map*\")\n");
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   scene::Scene scene = std::move(loaded->scene);
   scene::LiveScene live(std::move(loaded->script));
@@ -205,12 +191,11 @@ TEST_F(Kerbside, TreesOfAMapStayTakenWhenTheMapIsRebuilt) {
 
 TEST_F(Kerbside, TreesOfAMapStayTakenWhereAScenarioPaintsTheMap) {
   folder_.write("map.osm", map_of_a_tree);
-  folder_.write("scene.xp", std::string(streets) +
-                                "model(name=\"map\", file=\"map.osm\") { material(name=\"paint\", "
-                                "roughness=0.5) }\n"
-                                "grownTrees(of=\"map\")\n"
-                                "scenario(name=\"wet\") { override(of=\"paint\", roughness=0.1) }\n");
-  Result<scene::LoadedScene> loaded = scene::load_scene(folder_.path() / "scene.xp", house::node_registry());
+  auto loaded = ScriptTest::load(std::string(streets) +
+                                 "model(name=\"map\", file=\"map.osm\") { material(name=\"paint\", "
+                                 "roughness=0.5) }\n"
+                                 "grownTrees(of=\"map\")\n"
+                                 "scenario(name=\"wet\") { override(of=\"paint\", roughness=0.1) }\n");
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   scene::Scene scene = std::move(loaded->scene);
   scene::LiveScene live(std::move(loaded->script));
@@ -239,13 +224,12 @@ TEST_F(Kerbside, TreesOfAMapFollowTheMap) {
                 R"(<osm version="0.6"><bounds minlat="48" minlon="11" maxlat="48.001" maxlon="11.002"/>
     <node id="1" version="1" lat="48.0005" lon="11.0007"><tag k="natural" v="tree"/></node>
     <node id="2" version="1" lat="48.0003" lon="11.0016"><tag k="natural" v="tree"/></node></osm>)");
-  folder_.write("scene.xp",
-                std::string(streets) +
-                    "model(name=\"map\", file=\"map.osm\", visible=0)\n"
-                    "group(name=\"trees\") { grownTrees(of=\"map*\") }\n"
-                    "scenario(name=\"other\") { override(of=\"map\", file=\"other.osm\", visible=1) }\n"
-                    "scenario(name=\"more\") { model(name=\"map of it\", file=\"other.osm\") }\n");
-  Result<scene::LoadedScene> loaded = scene::load_scene(folder_.path() / "scene.xp", house::node_registry());
+  auto loaded =
+      ScriptTest::load(std::string(streets) +
+                       "model(name=\"map\", file=\"map.osm\", visible=0)\n"
+                       "group(name=\"trees\") { grownTrees(of=\"map*\") }\n"
+                       "scenario(name=\"other\") { override(of=\"map\", file=\"other.osm\", visible=1) }\n"
+                       "scenario(name=\"more\") { model(name=\"map of it\", file=\"other.osm\") }\n");
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   scene::Scene scene = std::move(loaded->scene);
   scene::LiveScene live(std::move(loaded->script));
@@ -404,9 +388,8 @@ TEST_F(Kerbside, TreesStandOnPavementsAtBothKerbsAndKeepTheirDistance) {
 
 TEST_F(Kerbside, NothingStandsOnCarriagewaysWhereverTheyLie) {
   for (const char* road : {"-80 -60.13, 90 51.7", "-80 -60.31, -20 -61.2, 90 -20", "-33.3 -90, -30.1 90"}) {
-    folder_.write("oblique.xp", std::string("terrain_plane()\nroad(path=\"") + road +
-                                    "\")\npaving()\nstreetFurniture(kind=\"bollards\")\n");
-    const auto loaded = scene::load_scene(folder_.path() / "oblique.xp", house::node_registry());
+    const auto loaded = ScriptTest::load(std::string("terrain_plane()\nroad(path=\"") + road +
+                                         "\")\npaving()\nstreetFurniture(kind=\"bollards\")\n");
     ASSERT_TRUE(loaded) << to_string(loaded.errors());
     const std::vector<scene::Object> bollards = called(loaded->scene, "bollard");
     EXPECT_GT(bollards.size(), 100u) << road;
@@ -471,11 +454,10 @@ TEST_F(Kerbside, CarsLookAlongTheirLanesAndTakeTheirShareOfPlaces) {
 TEST_F(Kerbside, CarsStandOnTheSlopeOfAHillAndLampsUpright) {
   constexpr float rise = 0.2f;  // eastward
   folder_.write("hill.obj", "v -120 -40 -24\nv 120 -40 24\nv 120 40 24\nv -120 40 -24\nf 1 2 3 4\n");
-  folder_.write("scene.xp",
-                "model(file=\"hill.obj\", up=\"z\")\nroad(path=\"-100 0 -20, 100 0 20\")\npaving()\n"
-                "streetFurniture(kind=\"lamps\")\nparkedCars(share=1)\n"
-                "camera(name=\"eye\", position=\"0 -9 2\", target=\"0 0 1\")\n");
-  const auto loaded = scene::load_scene(folder_.path() / "scene.xp", house::node_registry());
+  const auto loaded = ScriptTest::load(
+      "model(file=\"hill.obj\", up=\"z\")\nroad(path=\"-100 0 -20, 100 0 20\")\npaving()\n"
+      "streetFurniture(kind=\"lamps\")\nparkedCars(share=1)\n"
+      "camera(name=\"eye\", position=\"0 -9 2\", target=\"0 0 1\")\n");
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   const std::vector<scene::Object> cars = called(loaded->scene, "parked car"),
                                    lamps = called(loaded->scene, "street lamp");
@@ -562,10 +544,8 @@ TEST_F(Kerbside, ManyThingsAreRefusedWithTheNumberThatIsAllowed) {
 }
 
 TEST_F(Kerbside, ASceneWithoutStreetsHasNone) {
-  folder_.write(
-      "bare.xp",
+  const auto loaded = ScriptTest::load(
       "terrain_plane()\nstreetTrees()\ncamera(name=\"eye\", position=\"0 -9 2\", target=\"0 0 1\")\n");
-  const auto loaded = scene::load_scene(folder_.path() / "bare.xp", house::node_registry());
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   EXPECT_TRUE(called(loaded->scene, "street tree").empty());
   EXPECT_NE(to_string(loaded->warnings).find("no streets"), std::string::npos);

@@ -96,8 +96,8 @@ scene::Model of_metal(const char* name, std::vector<Mesh> meshes) {
 
 }  // namespace
 
-scene::Model make_ball(int rings) {
-  return of_metal("ball", {skin(rings, 2 * rings / 3, [](float share) {
+scene::Model make_ball() {
+  return of_metal("ball", {skin(body_rings, body_sides, [](float share) {
                     const float polar = pi * share, radius = std::sin(polar);
                     return Section{{0.0f, 0.0f, std::cos(polar)}, {radius, 0.0f, 0.0f}, {0.0f, radius, 0.0f}};
                   })});

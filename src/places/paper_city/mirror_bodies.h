@@ -6,8 +6,8 @@
 
 namespace parvis::city {
 
-/// Polished metal, 2 m across, its middle at the origin; of 4/3 `rings`^2 triangles.
-scene::Model make_ball(int rings = 96);
+/// Polished metal, 2 m across, its middle at the origin.
+scene::Model make_ball();
 
 /// Polished metal, 12 m long; x forward, y left, z up, its middle about the origin.
 scene::Model make_whale();

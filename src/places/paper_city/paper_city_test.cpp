@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/files.h"
 #include "life/traffic/demand.h"
 #include "places/paper_city/facade_texture.h"
@@ -9,6 +12,8 @@
 #include "places/paper_city/sky_picture.h"
 #include "places/paper_city/street_furniture.h"
 #include "places/paper_city/tree.h"
+#include "scene/script/schema.h"
+#include "scene/script/script_reader.h"
 
 namespace parvis::city {
 namespace {
@@ -29,6 +34,38 @@ TEST(PaperCity, LeavesNothingBehindWhereItCannotWrite) {
   EXPECT_NE(to_string(status.errors()).find("a_file"), std::string::npos);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
   fs::remove_all(folder);
+}
+
+/// What is written for an attribute; nothing where it is absent.
+std::string written(const scene::ScriptNode& node, const std::string& name) {
+  for (const scene::ScriptAttribute& attribute : node.attributes)
+    if (attribute.name == name) return attribute.value;
+  return "";
+}
+
+glm::vec2 place_of(const scene::ScriptNode& node) {
+  const std::vector<double> numbers = scene::parse_numbers(written(node, "position"));
+  return numbers.size() == 3 ? glm::vec2(numbers[0], numbers[1]) : glm::vec2(NAN);
+}
+
+TEST(PaperCity, TheDayHasATourPastParkedCars) {
+  constexpr float near_m = 8.0f;
+  const std::vector<std::string> cars{"a.glb", "b.glb"};
+  const auto script = scene::parse_script(day_script(cars), "day.xp");
+  ASSERT_TRUE(script) << to_string(script.errors());
+  const auto tour = std::ranges::find(*script, "tour", &scene::ScriptNode::type);
+  ASSERT_NE(tour, script->end());
+  EXPECT_EQ(tour->children.size(), 2u);
+  for (const scene::ScriptNode& stop : tour->children) {
+    const auto camera = std::ranges::find_if(*script, [&](const scene::ScriptNode& node) {
+      return node.type == "camera" && written(node, "name") == written(stop, "camera");
+    });
+    ASSERT_NE(camera, script->end());
+    EXPECT_TRUE(std::ranges::any_of(*script, [&](const scene::ScriptNode& node) {
+      return written(node, "name").starts_with("parked") &&
+             glm::distance(place_of(node), place_of(*camera)) < near_m;
+    })) << written(stop, "camera");
+  }
 }
 
 TEST(PaperCity, IsTheSameForTheSameSeed) {

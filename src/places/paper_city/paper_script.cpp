@@ -142,7 +142,11 @@ std::string day_script(std::span<const std::string> car_files) {
     text += fmt::format("scenario(name=\"{}\") {{ override(of=\"%dayLight\", timeOfDay={}) }}\n", name, hour);
   const glm::vec3 c(main_crossing(), 0.0f);
   return text + "\n" +
-         camera("kerb", c + glm::vec3(0.4f, 20.6f, 1.35f), c + glm::vec3(4.8f, 27.2f, 0.75f), 55);
+         camera("kerb", c + glm::vec3(0.4f, 20.6f, 1.35f), c + glm::vec3(4.8f, 27.2f, 0.75f), 55) +
+         camera("past the cars 1", c + glm::vec3(0.4f, 14.0f, 1.35f), c + glm::vec3(4.8f, 21.0f, 0.75f), 55) +
+         camera("past the cars 2", c + glm::vec3(0.4f, 42.0f, 1.35f), c + glm::vec3(4.8f, 49.0f, 0.75f), 55) +
+         "tour(name=\"past the cars\") {\n  stop(time_s=0, camera=\"past the cars 1\")\n"
+         "  stop(time_s=4, camera=\"past the cars 2\")\n}\n";
 }
 
 std::string paper_script(std::span<const std::string> vehicle_files, std::uint64_t seed) {

@@ -18,8 +18,8 @@ std::string people_script(std::span<const std::string> walker_files);
 /// `vehicle_files` are the models of the traffic.
 std::string paper_script(std::span<const std::string> vehicle_files, std::uint64_t seed);
 
-/// The same city under the true sun of a place and day, with scenarios for its hours and cars parked along a
-/// street.
+/// The same city under the true sun of a place and day, with scenarios for its hours, cars parked along a
+/// street and a tour past them.
 std::string day_script(std::span<const std::string> car_files);
 
 }  // namespace parvis::city
