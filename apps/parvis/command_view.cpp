@@ -19,9 +19,13 @@ Status read_rate(const std::string& rate, viewer::WindowOptions& window) {
     window.frames_per_second = 0.0;
     return Done{};
   }
+  if (rate == "auto") {
+    window.always_holds_rate = true;
+    return Done{};
+  }
   const std::vector<double> numbers = scene::parse_numbers(rate);
   if (numbers.size() != 1 || !(numbers[0] >= 1.0 && numbers[0] <= max_rate))
-    return error("--fps {}: expected frames per second, 1 to {}, or off", rate, max_rate);
+    return error("--fps {}: expected frames per second, 1 to {}, auto or off", rate, max_rate);
   window.frames_per_second = numbers[0];
   return Done{};
 }
@@ -56,8 +60,8 @@ void add_view(CLI::App& app, Chosen& chosen) {
   command->add_option("--frames", arguments->window.max_frames, "Close after so many frames")
       ->check(CLI::Range(0, 1000000));
   command->add_option("--fps", arguments->rate,
-                      "Frames per second to hold by drawing fewer pixels while anything moves, or off "
-                      "(default: 10 on a software renderer, 60 on a GPU; off with --frames)");
+                      "Frames per second to hold by drawing fewer pixels while anything moves; auto: 10 on a "
+                      "software renderer, 60 on a GPU; or off (default: auto; off with --frames)");
   command->add_flag("--panel", arguments->window.has_panel, "Begin with the panel open");
   command->add_option("--output", arguments->window.pictures.folder,
                       "Folder of the pictures that the key P takes (default: the scene's)");

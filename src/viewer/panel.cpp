@@ -186,7 +186,7 @@ void Panel::draw_light(Visit& visit) {
   const std::vector<std::string> names = registry.names();
   std::vector<std::string> shown = names;
   for (std::string& name : shown) std::replace(name.begin(), name.end(), '_', ' ');
-  std::string current = registry.name_of(methods::settings(scene));
+  std::string current = registry.name_of(scene);
   std::replace(current.begin(), current.end(), '_', ' ');
   if (const auto method = rows_.choice("Reflections", shown, current,
                                        "how mirror-like parts of moving things see their surroundings"))

@@ -80,13 +80,6 @@ Image8 read_window(int width, int height) {
   return picture;
 }
 
-double rate_of(const WindowOptions& options) {
-  constexpr double software_rate = 10.0, gpu_rate = 60.0;
-  if (options.frames_per_second) return *options.frames_per_second;
-  if (options.max_frames > 0) return 0.0;
-  return gl::is_software() ? software_rate : gpu_rate;
-}
-
 void print_keys() {
   for (const KeyHelp& help : key_help) fmt::print("  {:<8} {}\n", help.keys, help.does);
 }
@@ -105,7 +98,7 @@ class Frames {
         imgui_input_(window) {
     panel_.is_open = options.has_panel;
     visit_.notice("F1 shows the keys, F2 the panel");
-    stage.hold_rate(rate_of(options));
+    stage.hold_rate(rate_of(options, gl::is_software()));
   }
 
   Status run() {
@@ -201,6 +194,13 @@ class Frames {
 };
 
 }  // namespace
+
+double rate_of(const WindowOptions& options, bool is_software) {
+  constexpr double software_rate = 10.0, gpu_rate = 60.0;
+  if (options.frames_per_second) return *options.frames_per_second;
+  if (options.max_frames > 0 && !options.always_holds_rate) return 0.0;
+  return is_software ? software_rate : gpu_rate;
+}
 
 Status show(house::Play play, const WindowOptions& options) {
   Glfw glfw;

@@ -16,11 +16,14 @@ struct WindowOptions {
   bool has_panel = false;  ///< at first; F2 opens and closes it
   PicturePlace pictures;   ///< where those go that the visitor takes
   int max_frames = 0;      ///< closes after so many; 0: when the visitor does (tests and screenshots)
-  /// The rate that is held by drawing fewer pixels; 0: none is. Unset: 10 on a software renderer and 60 on a
-  /// GPU, none where `max_frames` asks for pictures that can be repeated.
-  std::optional<double> frames_per_second;
+  std::optional<double> frames_per_second;  ///< to hold by drawing fewer pixels; 0: none; unset: `rate_of`
+  bool always_holds_rate = false;           ///< the window's own rate is held where `max_frames` is set, too
   std::string screenshot;  ///< what the window shows last, panel and all, is written here; empty: nowhere
 };
+
+/// Frames per second that a window holds, 0: none. By itself 10 on a software renderer and 60 on a GPU; none
+/// where `max_frames` asks for pictures that can be repeated, unless `always_holds_rate`.
+double rate_of(const WindowOptions& options, bool is_software);
 
 /// Opens the window, makes a stage of the play and shows it until the window is closed. Fails where there is
 /// no display or no OpenGL 4.5.
