@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "base/progress.h"
+#include "graphics/gl/context.h"
 
 namespace parvis::bench {
 
@@ -15,6 +16,15 @@ void Benches::add(Bench bench) {
 const Bench* Benches::find(std::string_view name) const {
   const auto found = std::ranges::find(benches_, name, &Bench::name);
   return found == benches_.end() ? nullptr : &*found;
+}
+
+Measure in_context(Measure measure) {
+  return [measure = std::move(measure)](const BenchSetup& setup, Report& report) -> Status {
+    const Result<gl::Context> context = gl::Context::create_headless();
+    if (!context) return context.errors();
+    report.note("machine: " + gl::driver_name());
+    return measure(setup, report);
+  };
 }
 
 Status run_parts(const BenchSetup& setup, std::span<const BenchPart> parts) {

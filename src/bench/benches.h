@@ -34,13 +34,18 @@ struct BenchPart {
 /// it.
 Status run_parts(const BenchSetup& setup, std::span<const BenchPart> parts);
 
+/// What a bench does. An error ends it.
+using Measure = std::function<Status(const BenchSetup&, Report&)>;
+
+/// The same with a current OpenGL context, whose driver a row names.
+Measure in_context(Measure measure);
+
 /// One bench.
 struct Bench {
   std::string name;     ///< snake_case; what `parvis bench` is given
   std::string summary;  ///< one clause for --help: what is measured
-  /// Adds every figure to the report. An error ends the bench; figures that this machine cannot measure are
-  /// skipped.
-  std::function<Status(const BenchSetup&, Report&)> run;
+  /// Adds every figure to the report; figures that this machine cannot measure are skipped.
+  Measure run;
   std::vector<std::string> parts = {};  ///< that it can be asked for alone; empty: it runs as a whole
 };
 

@@ -41,6 +41,18 @@ Result<JudgedMethod> judged_method(house::Stage& stage, std::string name,
   return JudgedMethod{std::move(name), *std::move(made), (*method)->needs_earlier_frames};
 }
 
+Result<std::vector<JudgedMethod>> judged_methods(
+    house::Stage& stage, const std::vector<std::pair<std::string, methods::Settings>>& wanted) {
+  std::vector<JudgedMethod> methods;
+  methods.reserve(wanted.size());
+  for (const auto& [name, reflection] : wanted) {
+    Result<JudgedMethod> method = judged_method(stage, name, reflection);
+    if (!method) return method.errors();
+    methods.push_back(*std::move(method));
+  }
+  return methods;
+}
+
 Status pass_by(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height) {
   if (Status status = stage.renderer().set_reflection(method.reflections.get()); !status) return status;
   render::Renderer& renderer = stage.renderer();

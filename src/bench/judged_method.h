@@ -3,6 +3,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "house/stage/stage.h"
 #include "reflections/methods/settings.h"
@@ -21,6 +23,10 @@ Status keep_maps(const House& house, scene::Scene scene, const methods::Settings
 /// Makes a method for a stage's scene; it lives no longer than the stage.
 Result<JudgedMethod> judged_method(house::Stage& stage, std::string name,
                                    const methods::Settings& reflection);
+
+/// Makes several, each by its name and settings, in their order.
+Result<std::vector<JudgedMethod>> judged_methods(
+    house::Stage& stage, const std::vector<std::pair<std::string, methods::Settings>>& wanted);
 
 /// Draws a frame of the stage by a method: all of it, or cars alone.
 Status draw(house::Stage& stage, const JudgedMethod& method, const Camera& camera, int width, int height,

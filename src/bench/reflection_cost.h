@@ -25,7 +25,9 @@ enum class Frames : bool { left_out, whole };
 
 /// Times methods in alternating order, each `repeats` times (at least 1), one sample of each a turn, after a
 /// turn that is not timed; the first must be the method without reflections, whose cost is nothing. Before
-/// each turn the scene plays `step_s` on: what methods keep between frames counts as it does in motion.
+/// each turn the scene plays `step_s` on: what methods keep between frames counts as it does in motion. A
+/// turn in which a method lacked surroundings (Reflections::supply) is not counted: it is supplied, and the
+/// turn is taken again; an error where that does not end.
 Result<std::vector<ReflectionCost>> reflection_costs(house::Stage& stage,
                                                      const std::vector<JudgedMethod>& methods,
                                                      const Camera& camera, int width, int height, int repeats,

@@ -24,23 +24,30 @@ constexpr const char* two_cores =
 constexpr const char* one_core =  // the control
     "env LP_NUM_THREADS=1 taskset -c 0 mpirun --allow-run-as-root --oversubscribe --bind-to none -n 2";
 
-/// Seconds that the tiles of a photograph take, without what each process does before them.
-Result<double> photograph_s(const std::string& before, const fs::path& folder, bool is_quick) {
+/// How long a command takes, and of that what is divided between processes.
+struct Seconds {
+  double of_work, of_command;
+};
+
+/// The work: the tiles of a photograph, without what each process does before them.
+Result<Seconds> photograph_s(const std::string& before, const fs::path& folder, bool is_quick) {
   const Result<OwnRun> run = run_own_program(
       before, {"reference", (folder / "paper.xp").string(), "--path-traced", "--camera", "street", "--size",
                is_quick ? "320x180" : "640x360", "--samples", "16", "-o", (folder / "photo.png").string()});
   if (!run) return run.errors();
-  return number_after(run->output, "million rays in ");
+  const Result<double> tracing_s = number_after(run->output, "million rays in ");
+  if (!tracing_s) return tracing_s.errors();
+  return Seconds{*tracing_s, run->seconds};
 }
 
-/// Seconds of a bake, without those of one that finds all of it done.
-Result<double> bake_s(const std::string& before, const fs::path& folder) {
+/// The work: a bake, without a bake that finds all of it done.
+Result<Seconds> bake_s(const std::string& before, const fs::path& folder) {
   fs::remove_all(folder / "some.baked");
   const std::vector<std::string> arguments{"bake", (folder / "some.xp").string()};
   const Result<OwnRun> whole = run_own_program(before, arguments), again = run_own_program(before, arguments);
   if (!whole) return whole.errors();
   if (!again) return again.errors();
-  return whole->seconds - again->seconds;
+  return Seconds{whole->seconds - again->seconds, whole->seconds};
 }
 
 /// The city with reference maps on a line along a road.
@@ -58,17 +65,21 @@ struct Speedups {
   std::vector<double> on_two_cores, on_one_core;  ///< of each work; the second is the control
 };
 
-Status report_speedup(const char* key, const std::function<Result<double>(const char*)>& seconds_of,
+Status report_speedup(const char* key, const std::function<Result<Seconds>(const char*)>& seconds_of,
                       Speedups& speedups, Report& report) {
-  const Result<double> by_one = seconds_of(alone), by_two = seconds_of(two_cores),
-                       shared = seconds_of(one_core);
-  for (const Result<double>* seconds : {&by_one, &by_two, &shared})
+  const Result<Seconds> by_one = seconds_of(alone), by_two = seconds_of(two_cores),
+                        shared = seconds_of(one_core);
+  for (const Result<Seconds>* seconds : {&by_one, &by_two, &shared})
     if (!*seconds) return seconds->errors();
-  speedups.on_two_cores.push_back(*by_one / *by_two);
-  speedups.on_one_core.push_back(*by_one / *shared);
+  speedups.on_two_cores.push_back(by_one->of_work / by_two->of_work);
+  speedups.on_one_core.push_back(by_one->of_work / shared->of_work);
   report.add(key, speedups.on_two_cores.back(), wanted);
-  report.note(fmt::format("{}: {:.1f} s alone, {:.1f} s by two, {:.1f} s by two on one core, the control",
-                          key, *by_one, *by_two, *shared));
+  report.add(fmt::format("{}_of_the_whole_command", key), by_one->of_command / by_two->of_command);
+  report.note(
+      fmt::format("{}: {:.1f} s alone, {:.1f} s by two, {:.1f} s by two on one core, the control; "
+                  "the whole command {:.1f}, {:.1f} and {:.1f} s",
+                  key, by_one->of_work, by_two->of_work, shared->of_work, by_one->of_command,
+                  by_two->of_command, shared->of_command));
   report.add_control(fmt::format("{}_on_one_core", key), speedups.on_one_core.back(), wanted);
   return Done{};
 }
