@@ -15,8 +15,6 @@ class Stillness {
   /// Takes in the frame to come, `passed_s` after the last one.
   void add_frame(const scene::Scene& scene, const Camera& camera, int width, int height, double passed_s);
 
-  /// For how long nothing has changed; 0 in a frame that differs from the last one.
-  double still_s() const { return still_s_; }
   /// Is it long enough that a visitor has stopped to look?
   bool rests() const { return still_s_ >= rests_from_s; }
 
@@ -24,7 +22,7 @@ class Stillness {
   static constexpr double rests_from_s = 0.4;
 
   std::uint64_t state_ = 0;
-  double still_s_ = 0.0;
+  double still_s_ = 0.0;  ///< for how long nothing has changed; 0 in a frame that differs from the last
 };
 
 }  // namespace parvis::house
