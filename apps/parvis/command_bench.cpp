@@ -21,13 +21,11 @@ Status measure(const Arguments& arguments) {
                  bench.parts.empty()
                      ? fmt::format("nothing: the bench {} runs as a whole", bench.name)
                      : fmt::format("a part of {}: {}", bench.name, fmt::join(bench.parts, ", ")));
-  if (Status status =
-          bench.run({house::all_rooms(), arguments.is_quick, arguments.part, arguments.kept}, report);
-      !status)
-    return status;
-  if (!arguments.json.empty())
-    if (Status status = report.write(arguments.json); !status) return status;
-  return report.controls();
+  const Status run =
+      bench.run({house::all_rooms(), arguments.is_quick, arguments.part, arguments.kept}, report);
+  if (!arguments.json.empty())  // what was measured before an error, too
+    if (Status written = report.write(arguments.json); !written) return written;
+  return run ? report.controls() : run;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import shlex
 import shutil
 import signal
@@ -34,6 +35,11 @@ def run(*arguments, environment=None, before=()):
         timeout=240,
         env={**os.environ, **(environment or {})},
     )
+
+
+def subcommands_in(help_text):
+    """The names of the subcommands that a help lists."""
+    return re.findall(r"^  ([a-z]+)(?= |$)", help_text.split("Subcommands:")[1], re.MULTILINE)
 
 
 def triangle(positions=(0, 0, 0, 4, 0, 0, 0, 0, 4), indices=(0, 1, 2), claimed_bytes=None):
@@ -169,7 +175,16 @@ class Usage(InAFolder):
             done = run(command, "--help")
             self.assertEqual(done.returncode, 0, command)
             self.assertIn("Example: parvis " + command, done.stdout)
-            self.assertIn(command, overview.stdout)
+        self.assertEqual(sorted(subcommands_in(overview.stdout)), sorted(SUBCOMMANDS))
+
+    def test_every_stage_of_a_subcommand_has_help_with_an_example(self):
+        for command in ["facade", "tree"]:
+            stages = subcommands_in(run(command, "--help").stdout)
+            self.assertGreaterEqual(len(stages), 10, command)
+            for stage in stages:
+                done = run(command, stage, "--help")
+                self.assertEqual(done.returncode, 0, (command, stage))
+                self.assertIn(f"Example: parvis {command} {stage}", done.stdout)
 
     def test_a_scene_or_a_part_of_it_is_exported(self):
         self.write("sail.glb", glb(*triangle()))
@@ -388,6 +403,23 @@ class HoursOfSun(BeforeAMirror):
         said, _ = self.study(options=["--from", "2026-03-21", "--clock", "1"])
         self.assertIn("sunrise 06:3", said)
         self.assertIn("UTC+1", said)
+
+    def test_a_polar_night_has_no_hours(self):
+        scene = self.write("scene.xp", 'model(file="ground.obj")\n')
+        place = ["--place", "78", "15", "--area", "-10", "-10", "10", "10", "--cell", "1"]
+        done = run("sun", scene, *place, "--from", "2026-12-21", "-o", self.folder / "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("the sun does not rise", done.stdout)
+        rows = list(csv.DictReader((self.folder / "out.csv").read_text().splitlines()))
+        self.assertEqual({float(row["hours"]) for row in rows}, {0.0})
+
+    def test_a_date_and_a_place_that_are_none(self):
+        scene = self.write("scene.xp", 'model(file="ground.obj")\n')
+        for place, date, words in [
+            (["43.7", "7.27"], "2026-02-30", ["2026-02-30 is not a date"]),
+            (["91", "0"], "2026-03-21", ["latitude=91", "north pole"]),
+        ]:
+            self.expect_failure("sun", scene, "--place", *place, "--from", date, "-o", self.folder / "out", words=words)
 
     def test_what_visitors_may_move_casts_its_shadow(self):
         self.write_quad("screen.obj", (40, -4, 0), (-40, -4, 0), (-40, -4, 30), (40, -4, 30))
@@ -957,6 +989,17 @@ class Facades(InAFolder):
         self.assertEqual(model.read_text(), "corrected")
         self.assertNotIn("--overwrite", run("facade", "model", self.folder, "--overwrite").stderr)
 
+    def test_a_scan_that_is_not_used_is_named_at_once(self):
+        place, photographs = self.folder / "place", self.folder / "photographs"
+        for folder in (place, photographs):
+            folder.mkdir()
+        (place / "model.glb").write_text("corrected")
+        (self.folder / "scan.ply").write_text("ply")
+        done = run("facade", "walk", photographs, "-o", place, "--scan", self.folder / "scan.ply")
+        self.assertEqual(done.returncode, 1)  # there are no photographs
+        self.assertIn("--overwrite", done.stderr)
+        self.assertEqual((place / "model.glb").read_text(), "corrected")
+
     def panorama(self, name, width, height):
         """A PNG whose rows differ, so that up and down do."""
         row = lambda y: b"".join(bytes((x * 255 // width, y * 255 // height, 90)) for x in range(width))
@@ -988,6 +1031,7 @@ class Facades(InAFolder):
         done = run("facade", "model", place, "--scan", self.folder / "wall.gltf")  # too few triangles to be trimmed
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("model.glb", done.stdout)
+        self.assertIn(b"backdrop", (place / "model.glb").read_bytes())
         self.assertEqual(run("facade", "model", place, "--scan", self.folder / "wall.gltf").returncode, 1)
         done = run("facade", "pack", place, "--model", self.folder / "wall.gltf")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -1231,6 +1275,7 @@ class Window(InAFolder):
             self.assertEqual(done.returncode, 0, done.stderr)
             drawn = float(done.stdout.split("the last one drew ")[1].split()[0])
             self.assertEqual(drawn < 50, fewer, f"--fps {rate}: {drawn} %")
+        self.assertEqual(run("view", scene, *SIZE, "--frames", "2", "--fps", "auto", before=self.display()).returncode, 0)
         for wrong in ["0", "fast", "-3", "10 20"]:
             self.expect_failure("view", scene, f"--fps={wrong}", words=["--fps", "frames per second", "off"])
 
@@ -1312,4 +1357,4 @@ class Window(InAFolder):
 
 if __name__ == "__main__":
     PARVIS = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    unittest.main(verbosity=2)  # the names of tests that are skipped, too

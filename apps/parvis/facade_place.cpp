@@ -1,8 +1,13 @@
 #include "facade_place.h"
 
+#include <algorithm>
+
 #include "capture/facades/coarse_model_file.h"
+#include "capture/facades/place_model.h"
 #include "capture/facades/place_recipe.h"
+#include "capture/facades/scan_frame.h"
 #include "capture/facades/scan_trim.h"
+#include "capture/photographs/set_file.h"
 #include "formats/readers/readers.h"
 #include "house/rooms.h"
 
@@ -11,6 +16,11 @@ namespace {
 
 void print(const Errors& messages) {
   if (!messages.empty()) fmt::print(stderr, "{}", to_string(messages));
+}
+
+Errors of_file(Errors errors, const std::filesystem::path& file) {
+  for (Error& error : errors) error.where.file = file.string();
+  return errors;
 }
 
 /// The objects of a model in any format.
@@ -26,15 +36,25 @@ Result<std::vector<facades::NamedMesh>> read_meshes(const std::filesystem::path&
 
 Status write_trimmed_scan(const std::filesystem::path& folder, const std::filesystem::path& scan,
                           const std::filesystem::path& output) {
-  Result<std::vector<facades::NamedMesh>> meshes = read_meshes(scan);
+  const Result<std::vector<facades::NamedMesh>> meshes = read_meshes(scan);
   if (!meshes) return meshes.errors();
-  const Result<facades::PlaceSource> source = facades::read_place(folder, *std::move(meshes));
+  const Result<photographs::LoadedSet> loaded = photographs::read_photograph_set(folder);
+  if (!loaded) return loaded.errors();
+  Result<facades::PlacedScan> placed = facades::placed_scan(*meshes, loaded->set);
+  if (!placed) return of_file(placed.errors(), scan);
+  if (placed->is_moved)
+    fmt::print(stderr, "{}: turned and scaled as the cameras were when they were calibrated\n",
+               scan.string());
+  const Result<facades::PlaceSource> source = facades::read_place(folder, std::move(placed->meshes));
   if (!source) return source.errors();
   print(source->notes);
-  const Result<facades::TrimmedScans> trimmed = facades::trimmed_scans(source->meshes, source->photographs);
+  Result<facades::TrimmedScans> trimmed = facades::trimmed_scans(source->meshes, source->photographs);
   if (!trimmed) return trimmed.errors();
   print(trimmed->notes);
-  return facades::write_meshes(output, trimmed->meshes);
+  std::vector<facades::NamedMesh>& kept = trimmed->meshes;
+  if (std::ranges::count(kept, facades::backdrop_name, &facades::NamedMesh::name) == 0)
+    kept.push_back(facades::backdrop(kept, loaded->set));
+  return facades::write_meshes(output, kept);
 }
 
 Result<facades::PlaceSource> open_place(const PlaceArguments& arguments) {

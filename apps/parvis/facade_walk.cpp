@@ -18,11 +18,15 @@ struct Arguments {
 
 Status walk(Arguments& arguments) {
   const std::filesystem::path folder = arguments.place.folder = arguments.calibration.job.folder;
-  if (Status status = arguments.calibration.run(); !status) return status;
   const std::filesystem::path file = folder / "model.glb";
   std::error_code code;
   // A model that is there may have been corrected: it is kept.
   const bool needs_model = arguments.place.model.empty() && !std::filesystem::exists(file, code);
+  if (!needs_model && !arguments.scan.empty())
+    fmt::print(stderr,
+               "{} is there and is kept; parvis facade model {} --scan {} --overwrite makes it of the scan\n",
+               file.string(), folder.string(), arguments.scan.string());
+  if (Status status = arguments.calibration.run(); !status) return status;
   if (needs_model && !arguments.scan.empty()) {
     if (Status status = write_trimmed_scan(folder, arguments.scan, file); !status) return status;
   } else if (needs_model) {
