@@ -23,7 +23,8 @@ constexpr double degree = 0.017453292519943295;
 
 /// Viewer and vertex anywhere outside, the vertex at `reach` times the surface's distance from the centre.
 Task chance_task(const Ellipsoid& ellipsoid, Random& random, float reach) {
-  const vec3 viewer = random.uniform(1.5f, 8.0f) * ellipsoid.surface(random_direction(random)).first;
+  const vec3 toward_viewer = ellipsoid.surface(random_direction(random)).first;  // compilers choose the order
+  const vec3 viewer = random.uniform(1.5f, 8.0f) * toward_viewer;                // in which factors are found
   return {viewer, reach * ellipsoid.surface(random_direction(random)).first, vec3(0.0f)};
 }
 
@@ -192,8 +193,11 @@ TEST(NewtonSearch, InAConcaveBallEveryPointFoundIsARootAndAllCanBeFound) {
   Random random(7);
   std::size_t maximum = 0;
   for (int i = 0; i < 100; ++i) {
-    const Task task{random.uniform(0.2f, 0.9f) * random_direction(random),
-                    random.uniform(0.2f, 0.9f) * random_direction(random), vec3(0.0f)};
+    const auto inside = [&] {
+      const vec3 direction = random_direction(random);
+      return random.uniform(0.2f, 0.9f) * direction;
+    };
+    const Task task{inside(), inside(), vec3(0.0f)};
     const std::vector<glm::dvec3> truth = reflections_on_ball(task.viewer, task.vertex, true);
     maximum = std::max(maximum, truth.size());
     std::vector<bool> found(truth.size());
