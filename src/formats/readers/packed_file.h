@@ -14,6 +14,7 @@ namespace parvis::formats {
 /// How a file is packed, by its first bytes; by no name, since browsers unpack some files and keep their
 /// names.
 enum class Packing : unsigned char { none, gzip, bzip2 };
+/// none, too, for fewer bytes than tell.
 Packing packing_of(std::string_view front);
 
 /// The extension in lower case, below that of a packing: ".json" of "town.city.JSON.GZ".
