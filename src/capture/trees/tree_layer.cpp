@@ -14,19 +14,21 @@ Result<TreeLayer> TreeLayer::create() {
 }
 
 void TreeLayer::resize(glm::ivec2 size) {
-  if (size == size_) return;
   size_ = size;
-  colour_ = gl::texture_2d(GL_RGBA16F, size.x, size.y);
-  depth_ = gl::texture_2d(GL_DEPTH_COMPONENT32F, size.x, size.y);
+  if (glm::all(glm::lessThanEqual(size, room_))) return;
+  room_ = glm::max(size, room_);
+  colour_ = gl::texture_2d(GL_RGBA16F, room_.x, room_.y);
+  depth_ = gl::texture_2d(GL_DEPTH_COMPONENT32F, room_.x, room_.y);
   framebuffer_ = gl::Framebuffer::create();
   glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, colour_.name(), 0);
   glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
 }
 
 void TreeLayer::prepare(const CrownCover& cover) {
-  if (cover.squares() != squares_) {
-    squares_ = cover.squares();
-    hiding_depths_ = gl::texture_2d(GL_R32F, squares_.x, squares_.y);
+  squares_ = cover.squares();
+  if (glm::any(glm::greaterThan(squares_, squares_room_))) {
+    squares_room_ = glm::max(squares_, squares_room_);
+    hiding_depths_ = gl::texture_2d(GL_R32F, squares_room_.x, squares_room_.y);
   }
   touched_ = cover.touched();
   glTextureSubImage2D(hiding_depths_.name(), 0, 0, 0, squares_.x, squares_.y, GL_RED, GL_FLOAT,

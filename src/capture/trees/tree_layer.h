@@ -28,6 +28,7 @@ class TreeLayer {
 
  private:
   TreeLayer(gl::Program hide, gl::Program show) : hide_(std::move(hide)), show_(std::move(show)) {}
+  /// A window draws another size in each frame: textures grow and never shrink.
   void resize(glm::ivec2 size);
   void draw_whole(const gl::Program& program, GLuint shown) const;
 
@@ -35,7 +36,8 @@ class TreeLayer {
   gl::VertexArray no_attributes_ = gl::VertexArray::create();
   gl::Texture colour_, depth_, hiding_depths_;
   gl::Framebuffer framebuffer_;
-  glm::ivec2 size_{0}, squares_{0};
+  glm::ivec2 size_{0}, squares_{0};       // in use
+  glm::ivec2 room_{0}, squares_room_{0};  // of the textures
   glm::ivec4 touched_{0};
 };
 
