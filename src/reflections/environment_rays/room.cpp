@@ -22,6 +22,7 @@ void furnish(House& house) {
        .help = "a ray for each reflecting pixel, looked up in the reference maps that see what it hits",
        .make = make_multiple_environment_maps,
        .suits = suits,
+       .suits_where = "where there are streets and something that mirrors",
        .attributes = {maps_attribute()},
        .read = read_maps});
 }

@@ -10,16 +10,19 @@ using namespace scene::attribute;
 
 using scene::AttributeSchema, scene::AttributeType;
 
+/// Which method a scene has that names none.
+std::string automatic_help(const Registry& registry) {
+  std::string help = "how reflections are made; automatic: ";
+  for (const Method& method : registry.all())
+    if (method.suits) help += fmt::format("{} {}, ", method.name, method.suits_where);
+  return help + registry.name_of(scene::Scene()) + " elsewhere";
+}
+
 std::vector<AttributeSchema> common_attributes(const Registry& registry) {
   std::vector<std::string> methods = registry.names();
   methods.insert(methods.begin(), automatic);
   return {
-      choice("method",
-             "how reflections are made; automatic: multiple_environment_maps where there are streets and "
-             "something that mirrors, rerendered_cube_map elsewhere",
-             std::move(methods))
-          .by_default(automatic)
-          .live(),
+      choice("method", automatic_help(registry), std::move(methods)).by_default(automatic).live(),
       integer("resolution", "edge of one face of a cube map")
           .in("pixels")
           .between(8, 4096)

@@ -26,7 +26,8 @@ struct Method {
   bool is_default = false;  ///< of the methods, one is
   /// Scenes that leave the choice have this method in place of the default where it is true; null: none.
   bool (*suits)(const scene::Scene& scene) = nullptr;
-  std::string lies_over = {};  ///< the name of the method that is made below it; empty: none
+  std::string suits_where = {};  ///< what such scenes have, for people: "where there are streets"
+  std::string lies_over = {};    ///< the name of the method that is made below it; empty: none
   bool (*is_wanted)(const scene::Scene& scene) = nullptr;  ///< of an overlay
   /// Attributes of the node `reflection`; several methods may share one, described alike.
   std::vector<scene::AttributeSchema> attributes = {};

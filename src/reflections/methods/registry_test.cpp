@@ -86,6 +86,7 @@ void furnish(House& house) {
                   return below;
                 },
                 .suits = [](const scene::Scene& scene) { return own_settings<Paint>(scene).red > 0.9f; },
+                .suits_where = "where it is red",
                 .lies_over = "green",
                 .attributes = {radiance("green", "0.25")}});
   registry.add(
