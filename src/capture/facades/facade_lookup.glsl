@@ -51,10 +51,11 @@ GLSL_FUNCTION FacadeOpinion facade_opinion(int candidate, vec3 position, vec3 to
   FacadePhoto photo = facade_photo(index);
   vec4 p = vec4(position, 1.0f);
   float depth = dot(photo.row_z, p);
-  if (depth <= 0.0f) return none;
+  if (!(depth > 0.0f)) return none;
   vec2 pixel = vec2(dot(photo.row_x, p), dot(photo.row_y, p)) / depth;
   vec2 size = vec2(photo.size.x, photo.size.y);
-  if (min(pixel.x, pixel.y) < 0.0f || pixel.x > size.x || pixel.y > size.y) return none;
+  // Written so that what overflowed to no number is none, either.
+  if (!(min(pixel.x, pixel.y) >= 0.0f && pixel.x <= size.x && pixel.y <= size.y)) return none;
   vec2 in_box = pixel - vec2(float(layer.x & 65535u), float(layer.x >> 16u));
   vec2 tiles = vec2(float(layer.y & 65535u), float(layer.y >> 16u));
   if (min(in_box.x, in_box.y) < -1.0f || in_box.x > TILE_INNER * tiles.x || in_box.y > TILE_INNER * tiles.y)

@@ -20,13 +20,11 @@ std::string take_text(Taker& taker) {
   return std::string(text.begin(), text.end());
 }
 
+/// Whether the shader's floats hold its numbers.
 bool is_finite(const PackedPhoto& photo) {
   const View& view = photo.view;
-  double sum = view.fx + view.fy + view.cx + view.cy + view.centre.x + view.centre.y + view.centre.z;
-  for (int c = 0; c < 3; ++c) {
-    sum += photo.balance.scale[std::size_t(c)] + photo.balance.offset[std::size_t(c)];
-    for (int r = 0; r < 3; ++r) sum += view.camera_from_world[c][r];
-  }
+  float sum = 0.0f;
+  for (const glm::vec4& values : photo_row(photo, 0)) sum += values.x + values.y + values.z + values.w;
   return std::isfinite(sum) && view.fx > 0.0 && view.fy > 0.0 && view.width > 0 && view.height > 0 &&
          view.width <= max_side && view.height <= max_side;
 }

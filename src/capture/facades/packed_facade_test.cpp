@@ -118,6 +118,9 @@ TEST(PackedFacade, WhatDoesNotFitTogetherIsRefused) {
             std::string::npos);
   EXPECT_NE(refused([](PackedFacade& f) { f.photos[0].view.fx = NAN; }).find("camera is none"),
             std::string::npos);
+  EXPECT_NE(refused([](PackedFacade& f) { f.photos[0].view.centre.x = 1e200; }).find("camera is none"),
+            std::string::npos)
+      << "the shader's floats do not hold it";
   EXPECT_NE(refused([](PackedFacade& f) { f.corners.pop_back(); }).find("differ in length"),
             std::string::npos);
   EXPECT_NE(refused([](PackedFacade& f) { f.lists[0].y = 77777; }).find("cut off"), std::string::npos);
@@ -127,6 +130,19 @@ TEST(PackedFacade, WhatDoesNotFitTogetherIsRefused) {
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
   EXPECT_FALSE(read_facade(file));
   EXPECT_FALSE(read_facade(folder.path() / "missing.facade"));
+}
+
+/// Numbers that fit into a file, and whose products do not fit into the shader's floats.
+TEST(PackedFacade, APointFarBeyondItsPhotographsHasNoColour) {
+  const Packed packed;
+  PackedFacade facade = packed.facade;
+  const FacadeTexels texels(facade);
+  for (const float far : {1e30f, -1e30f, 3e38f, -3e38f})
+    for (const glm::vec3 direction : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(1, 1, 1)}) {
+      FacadeLookup lookup(facade, &texels);
+      for (std::uint32_t layer = 0; layer < facade.layers.size(); ++layer)
+        EXPECT_EQ(lookup.key(layer, far * direction, {0, 0, 1}, 0.01f), FacadeLookup::no_opinion);
+    }
 }
 
 /// script/fuzz_seeds has written them.
