@@ -11,6 +11,11 @@ namespace {
 using Complex = std::complex<double>;
 using Quartic = std::array<Complex, 5>;  ///< from the constant on
 
+/// How far from the unit circle a root may be computed that lies on it: two that nearly meet, where the
+/// vertex is by a caustic, come out up to the square root of the rounding error off. One that truly is so far
+/// off reflects to within the square of this, in radians.
+constexpr double circle_width = 1e-5;
+
 /// All roots at once (Durand 1960, Kerner 1966).
 std::array<Complex, 4> roots_of(const Quartic& polynomial) {
   std::array<Complex, 4> roots;
@@ -107,7 +112,7 @@ std::vector<glm::dvec3> reflections_on_ball(glm::dvec3 viewer, glm::dvec3 vertex
   const Complex a(glm::length(viewer), 0.0), b(glm::dot(vertex, x), glm::dot(vertex, y));
   std::vector<glm::dvec3> points;
   for (const Complex& z : roots_of({-a * b, a + b, 0.0, -std::conj(a + b), std::conj(a * b)})) {
-    if (std::abs(std::abs(z) - 1.0) > 1e-7) continue;
+    if (std::abs(std::abs(z) - 1.0) > circle_width) continue;
     const double viewer_height = (a * std::conj(z)).real() - 1.0,
                  vertex_height = (b * std::conj(z)).real() - 1.0;
     const bool reflects =

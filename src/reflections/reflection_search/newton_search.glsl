@@ -16,10 +16,13 @@
 const float first_region =
     0.25f;  // maximum first step: radians seen from the centre; on bands also radians of the normal
 const float min_curvature =
-    1e-3f;                       // of the length over a convex reflector, relative to its maximum curvature
+    1e-4f;  // of the length over a convex reflector, relative to its maximum curvature; grazing sight has
+            // less along it than across, by twice the cosine of incidence
 const float near_error = 2e-7f;  // 0.05 degrees
 const float near_step =
     2e-3f;  // relative to the distance from the centre: about a texel of a whole body's map
+const float near_turn =
+    2e-3f;  // radians of the normal over the step that is left: from there a small error is enough
 const float seen_error = 0.25f;     // 60 degrees; with a larger error the viewer may see the surface's back
 const int max_newton_failures = 2;  // then gradient descent
 
@@ -192,9 +195,11 @@ GLSL_FUNCTION vec3 curvature_between(PathState path, PathState next, vec3 curvat
                               in_tangent_plane(path.plane, next.plane.at.normal));
 }
 
-// Newton's steps from a starting point, until the error is small, too many steps have failed, or no step is
-// left. Each round: the step, its length within the trust region, the path at its end, the curvature updated
-// from both ends, and the decision whether the search moves there.
+// Newton's steps from a starting point, until the error is small and so is the step that remains, too many
+// steps have failed, or no step is left. The error alone is not enough: beyond the point of a grazing sight
+// the vertex stands for its mirror image, and the error stays at about the sight's angle to the surface
+// however far the point is. Each round: the step, its length within the trust region, the path at its end,
+// the curvature updated from both ends, and the decision whether the search moves there.
 GLSL_FUNCTION SearchEnd search_from(ReflectionTask task, SearchStart start, SearchBounds bounds) {
   PathState path = path_over(task, start.plane);
   vec3 curvature = start.curvature;
@@ -207,14 +212,13 @@ GLSL_FUNCTION SearchEnd search_from(ReflectionTask task, SearchStart start, Sear
   float region = first_region;
   int failures = 0, failures_left = bounds.max_failures;
   vec2 last_step = vec2(0.0f);
-  for (int i = 0; i < bounds.max_steps && failures_left > 0 && path.error >= bounds.min_error; ++i) {
+  for (int i = 0; i < bounds.max_steps && failures_left > 0; ++i) {
     vec3 from_centre = path.plane.at.position - task.centre;
     vec2 whole = newton_step(path, curvature, bounds.is_convex);
     float whole_m = length(whole);
-    if (path.error < near_error && whole_m < near_step * breadth * length(from_centre)) {
-      last_step = whole;
-      break;
-    }
+    bool is_near = path.error < near_error && whole_m < near_step * breadth * length(from_centre);
+    if (is_near) last_step = whole;
+    if (is_near || (path.error < bounds.min_error && length(times(curvature, whole)) < near_turn)) break;
 
     if (failures >= max_newton_failures) whole = gradient_step(path, curvature);
     TrustedStep tried = trusted_step(whole, from_centre, curvature, region);
