@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "formats/terrain/city_surfaces.h"
+#include "scene/data/path.h"
 #include "scene/data/surroundings.h"
 #include "scene/roads/paving.h"
 #include "scene/roads/road_network.h"
@@ -18,6 +19,8 @@ constexpr float above_or_below_m = 2.5f, above_or_below_deck_m = 0.5f;  // of a 
 constexpr float lies_on_m = 0.05f;      // what lies so much higher than terrain covers it
 constexpr float below_cover_m = 0.15f;  // of terrain that other ground covers: both are drawn to centimetres
 constexpr float steepest = 0.7f;        // cosine of 45 degrees: what is steeper is no ground
+constexpr float turn_step_m = 4.0f;     // between points of a turn: 30 cm off an arc of 6.5 m
+constexpr float min_turn_sine = 0.34f;  // 20 degrees: less stays within the beds
 constexpr float cell_m = 16.0f;
 constexpr float farthest_cell = 1e8f;  // meshes may reach farther than cells have numbers
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
@@ -127,6 +130,20 @@ std::optional<Terrain> terrain_of(const std::string& object) {
 }
 
 float half_bed_m(const Road& road) { return half_width_m(road) + paved_beside_m + shoulder_m; }
+
+std::vector<Road> right_turns(const RoadGraph& graph) {
+  std::vector<Road> turns;
+  for (const Lane& lane : graph.lanes) {
+    if (lane.crossing < 0) continue;
+    const MeasuredPath path(lane.points);
+    if (cross_in_plan(path.direction_at(0.0f), path.direction_at(path.length())) > -min_turn_sine) continue;
+    Road& turn = turns.emplace_back();
+    turn.is_one_way = true, turn.lane_width_m = lane.width_m;
+    const int steps = std::max(2, int(std::ceil(path.length() / turn_step_m)));
+    for (int i = 0; i <= steps; ++i) turn.path.push_back(path.at(path.length() * float(i) / float(steps)));
+  }
+  return turns;
+}
 
 bool has_ground(const Scene& scene, const Object& object) {
   return !object.is_dynamic && object.is_visible && !surrounds_place(scene, object);

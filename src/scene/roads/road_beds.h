@@ -21,6 +21,10 @@ enum class Terrain : std::uint8_t {
 /// Half the width of a road's bed: its carriageway, pavements and a shoulder of a metre.
 float half_bed_m(const Road& road);
 
+/// The turns to the right through crossings, each as a road of one lane. Their pavements go round the corners
+/// between two roads, outside of both beds where these meet at a slant; other ways through stay inside.
+std::vector<Road> right_turns(const RoadGraph& graph);
+
 /// The terrain that parts of this name belong to; nothing for other names.
 std::optional<Terrain> terrain_of(const std::string& object);
 

@@ -8,7 +8,6 @@
 #include <unordered_map>
 
 #include "base/memory_budget.h"
-#include "scene/data/path.h"
 #include "scene/roads/road_beds.h"
 
 namespace parvis::scene {
@@ -24,8 +23,6 @@ constexpr int max_depth = 40;
 constexpr float slope_step_m = 0.5f;         // for normals
 constexpr float steepest_normal = 0.2f;      // z of normals whose slope is not taken for a plane's
 constexpr std::uint64_t bytes_per_m = 4000;  // of road: 40 triangles with their edges while they are divided
-constexpr float turn_step_m = 4.0f;          // between points of a turn: 30 cm off an arc of 6.5 m
-constexpr float min_turn_sine = 0.34f;       // 20 degrees: less stays within the beds
 
 class Shaping {
  public:
@@ -188,22 +185,6 @@ class Shaping {
   std::size_t first_new_ = 0;
   std::unordered_map<std::uint64_t, std::uint32_t> middles_;  ///< by the ends of an edge
 };
-
-/// The turns to the right through crossings. Their pavements go round the corners between two roads, outside
-/// of both beds where these meet at a slant; other ways through stay inside.
-std::vector<Road> right_turns(const RoadGraph& graph) {
-  std::vector<Road> turns;
-  for (const Lane& lane : graph.lanes) {
-    if (lane.crossing < 0) continue;
-    const MeasuredPath path(lane.points);
-    if (cross_in_plan(path.direction_at(0.0f), path.direction_at(path.length())) > -min_turn_sine) continue;
-    Road& turn = turns.emplace_back();
-    turn.is_one_way = true, turn.lane_width_m = lane.width_m;
-    const int steps = std::max(2, int(std::ceil(path.length() / turn_step_m)));
-    for (int i = 0; i <= steps; ++i) turn.path.push_back(path.at(path.length() * float(i) / float(steps)));
-  }
-  return turns;
-}
 
 /// Metres of beds that change terrain.
 double length_m(std::span<const RoadBed> beds) {
