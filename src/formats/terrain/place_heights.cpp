@@ -4,6 +4,7 @@
 #include "formats/terrain/place_heights.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -20,6 +21,9 @@ constexpr float max_cells = 60'000.0f;
 constexpr float foot_cell_m = 8.0f;                 // in each the lowest point counts
 constexpr float foot_slope = 0.12f, flat_m = 0.1f;  // of steep streets: what stands higher is no foot
 constexpr int foot_reach_cells = 6;                 // in which lower feet are looked for
+constexpr int own_reach_cells = 2;                  // of one building's feet around its lowest
+constexpr float own_uneven_m = 0.5f;                // between them
+constexpr float min_shown_m = 2.0f;                 // of a building that stands in a pit, over the ground
 constexpr float near_ground_m = 24.0f;              // of known ground: feet say nothing new there
 constexpr float road_step_m = 2.0f;
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
@@ -74,6 +78,78 @@ void fill(HeightRaster& heights) {
         height = height_at(coarse, heights.centre_of({x, y})).value_or(0.0f);
 }
 
+/// Calls use(cell) for the cells of a raster that are at most so many from a cell, until it returns false.
+template <class Use>
+bool each_around(const HeightRaster& raster, glm::ivec2 middle, int reach, const Use& use) {
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const glm::ivec2 cell = middle + glm::ivec2(dx, dy);
+      if (raster.contains(cell.x, cell.y) && !std::isnan(raster.at(cell.x, cell.y)) && !use(cell))
+        return false;
+    }
+  return true;
+}
+
+/// How high a foot at `cell` may lie over one at `other` on a steep street.
+float max_rise_m(glm::ivec2 cell, glm::ivec2 other) {
+  return flat_m + foot_slope * foot_cell_m * glm::length(glm::vec2(cell - other));
+}
+
+/// Whether the lowest point of a cell is a foot, where those of the cells that `is_left_out` do not count.
+template <class IsLeftOut>
+bool is_foot(const HeightRaster& feet_m, glm::ivec2 cell, const IsLeftOut& is_left_out) {
+  const float foot_m = feet_m.at(cell.x, cell.y);
+  if (std::isnan(foot_m) || is_left_out(cell)) return false;
+  return each_around(feet_m, cell, foot_reach_cells, [&](glm::ivec2 other) {
+    return is_left_out(other) || foot_m <= feet_m.at(other.x, other.y) + max_rise_m(cell, other);
+  });
+}
+
+/// Marks the cells of a building that alone lies deeper than all around it, as one does whose cellar is a
+/// part of its solid: on three sides stand others, more steeply above it than streets are, and none is half
+/// as low. What would be buried but for less than two metres does stand in a dip of the ground.
+void mark_pit(const HeightRaster& feet_m, const HeightRaster& tops_m, glm::ivec2 lowest, Mask& pits) {
+  const float foot_m = feet_m.at(lowest.x, lowest.y);
+  const auto is_own = [&](glm::ivec2 cell) {
+    const glm::ivec2 away = glm::abs(cell - lowest);
+    return std::max(away.x, away.y) <= own_reach_cells && feet_m.at(cell.x, cell.y) <= foot_m + own_uneven_m;
+  };
+  std::array<bool, 4> is_higher{};  // by quadrants
+  float around_m = std::numeric_limits<float>::max();
+  each_around(feet_m, lowest, foot_reach_cells, [&](glm::ivec2 cell) {
+    const float other_m = feet_m.at(cell.x, cell.y);
+    if (other_m <= foot_m + max_rise_m(cell, lowest) || !is_foot(feet_m, cell, is_own)) return true;
+    is_higher[std::size_t(cell.x >= lowest.x) + 2 * std::size_t(cell.y >= lowest.y)] = true;
+    around_m = std::min(around_m, other_m);
+    return true;
+  });
+  if (std::ranges::count(is_higher, true) < 3) return;
+  const float half_m = 0.5f * (foot_m + around_m);
+  const bool is_alone = each_around(feet_m, lowest, foot_reach_cells, [&](glm::ivec2 cell) {
+    return is_own(cell) || feet_m.at(cell.x, cell.y) > half_m;
+  });
+  if (!is_alone) return;
+  float top_m = foot_m;
+  each_around(feet_m, lowest, own_reach_cells, [&](glm::ivec2 cell) {
+    if (is_own(cell)) top_m = std::max(top_m, tops_m.at(cell.x, cell.y));
+    return true;
+  });
+  if (top_m < around_m + min_shown_m) return;
+  each_around(feet_m, lowest, own_reach_cells, [&](glm::ivec2 cell) {
+    if (is_own(cell)) pits.at(cell.x, cell.y) = 1;
+    return true;
+  });
+}
+
+Mask pits_among(const HeightRaster& feet_m, const HeightRaster& tops_m) {
+  Mask pits(feet_m, 0);
+  const auto none = [](glm::ivec2) { return false; };
+  for (int y = 0; y < feet_m.height; ++y)
+    for (int x = 0; x < feet_m.width; ++x)
+      if (is_foot(feet_m, {x, y}, none)) mark_pit(feet_m, tops_m, {x, y}, pits);
+  return pits;
+}
+
 }  // namespace
 
 PlaceHeights::PlaceHeights(const Scene& scene, std::span<const Road> roads, float margin_m) {
@@ -93,10 +169,11 @@ PlaceHeights::PlaceHeights(const Scene& scene, std::span<const Road> roads, floa
 
   const glm::ivec2 foot_cells = glm::ivec2(glm::ceil(size / foot_cell_m)) + 1;
   HeightRaster feet_m(foot_cells.x, foot_cells.y, foot_cell_m, heights_m_.origin, unknown);
+  HeightRaster tops_m = feet_m;
   for (const Object& object : scene.objects)
-    if (stands_still(scene, object)) note_own_ground(object), note_feet(object, feet_m);
+    if (stands_still(scene, object)) note_own_ground(object), note_feet(object, feet_m, tops_m);
   note_roads(roads);
-  note_lowest(feet_m);
+  note_lowest(feet_m, tops_m);
   fill_gaps();
 }
 
@@ -111,7 +188,7 @@ void PlaceHeights::note_own_ground(const Object& object) {
   });
 }
 
-void PlaceHeights::note_feet(const Object& object, HeightRaster& feet_m) {
+void PlaceHeights::note_feet(const Object& object, HeightRaster& feet_m, HeightRaster& tops_m) {
   each_triangle(object, [&](glm::vec3 a, glm::vec3 b, glm::vec3 c, bool is_of_ground) {
     if (is_of_ground) return;
     for (const glm::vec3& corner : {a, b, c}) {
@@ -119,6 +196,8 @@ void PlaceHeights::note_feet(const Object& object, HeightRaster& feet_m) {
       if (!feet_m.contains(foot.x, foot.y)) continue;
       float& lowest_m = feet_m.at(foot.x, foot.y);
       if (!(lowest_m <= corner.z)) lowest_m = corner.z;
+      float& highest_m = tops_m.at(foot.x, foot.y);
+      if (!(highest_m >= corner.z)) highest_m = corner.z;
       if (built_.contains(cell.x, cell.y)) built_.at(cell.x, cell.y) = 1;
     }
     const std::vector<std::vector<glm::vec3>> rings{{a, b, c}};
@@ -143,23 +222,16 @@ void PlaceHeights::note_roads(std::span<const Road> roads) {
 
 /// The feet of buildings: points below which no other rises more steeply than a street. Far from known ground
 /// they are the ground.
-void PlaceHeights::note_lowest(const HeightRaster& feet_m) {
+void PlaceHeights::note_lowest(const HeightRaster& feet_m, const HeightRaster& tops_m) {
   const GroundRaster<float> to_ground = distances_to(own_ground_, 1);
+  const Mask pits = pits_among(feet_m, tops_m);
   for (int y = 0; y < feet_m.height; ++y)
     for (int x = 0; x < feet_m.width; ++x) {
-      const float foot_m = feet_m.at(x, y);
-      if (std::isnan(foot_m)) continue;
-      bool is_foot = true;
-      for (int dy = -foot_reach_cells; dy <= foot_reach_cells && is_foot; ++dy)
-        for (int dx = -foot_reach_cells; dx <= foot_reach_cells && is_foot; ++dx)
-          is_foot = !feet_m.contains(x + dx, y + dy) ||
-                    !(foot_m > feet_m.at(x + dx, y + dy) + flat_m +
-                                   foot_slope * foot_cell_m * std::hypot(float(dx), float(dy)));
-      if (!is_foot) continue;
+      if (!is_foot(feet_m, {x, y}, [&](glm::ivec2 cell) { return pits.at(cell.x, cell.y) != 0; })) continue;
       const glm::ivec2 cell = heights_m_.cell_at(feet_m.centre_of({x, y}));
       if (!heights_m_.contains(cell.x, cell.y) || to_ground.at(cell.x, cell.y) < near_ground_m) continue;
       float& known_m = heights_m_.at(cell.x, cell.y);
-      if (std::isnan(known_m)) known_m = foot_m;
+      if (std::isnan(known_m)) known_m = feet_m.at(x, y);
     }
 }
 

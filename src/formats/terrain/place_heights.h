@@ -27,9 +27,9 @@ class PlaceHeights {
 
  private:
   void note_own_ground(const Object& object);
-  void note_feet(const Object& object, HeightRaster& feet_m);
+  void note_feet(const Object& object, HeightRaster& feet_m, HeightRaster& tops_m);
   void note_roads(std::span<const Road> roads);
-  void note_lowest(const HeightRaster& feet_m);
+  void note_lowest(const HeightRaster& feet_m, const HeightRaster& tops_m);
   void fill_gaps();
 
   HeightRaster heights_m_;

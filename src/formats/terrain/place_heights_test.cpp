@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <tuple>
+#include <vector>
 
 #include "scene/data/surroundings.h"
 #include "scene/data/test_scene.h"
@@ -33,6 +35,31 @@ TEST(PlaceHeights, RisesWithTheFeetOfHouses) {
   EXPECT_NEAR(place.at({-500.0f, 30.0f}), place.at({-margin_m, 30.0f}), 0.5f)
       << "beyond the plan as at its edge";
   for (const float height : place.heights().cells) EXPECT_TRUE(std::isfinite(height));
+}
+
+/// Houses of 8 m on level ground, 24 m from each other, of which some stand deeper.
+Scene houses_of_which(const std::vector<glm::ivec2>& deep, float foot_m, float top_m) {
+  Scene scene;
+  for (int x = 0; x < 7; ++x)
+    for (int y = 0; y < 7; ++y) {
+      const bool is_deep = std::ranges::find(deep, glm::ivec2(x, y)) != deep.end();
+      const glm::vec2 low = 24.0f * glm::vec2(x, y);
+      auto house = model_of(box({low, is_deep ? foot_m : 0.0f}, {low + 8.0f, is_deep ? top_m : 9.0f}),
+                            matt(glm::vec3(0.5f)));
+      house->parts.front().object = "WallSurface";
+      add(scene, house);
+    }
+  return scene;
+}
+
+TEST(PlaceHeights, OneHouseWithItsCellarIsNoPit) {
+  const glm::vec2 in_middle(76.0f, 76.0f), beside(98.0f, 76.0f);
+  const PlaceHeights place(houses_of_which({{3, 3}}, -3.5f, 9.0f), {}, margin_m);
+  for (const glm::vec2 p : {in_middle, beside}) EXPECT_NEAR(place.at(p), 0.0f, 0.05f) << p.x;
+  const PlaceHeights buried(houses_of_which({{3, 3}}, -3.5f, 0.5f), {}, margin_m);
+  EXPECT_NEAR(buried.at(in_middle), -3.5f, 0.5f) << "control: it would vanish in the ground";
+  const PlaceHeights dip(houses_of_which({{3, 3}, {4, 3}, {3, 4}}, -3.5f, 9.0f), {}, margin_m);
+  EXPECT_NEAR(dip.at(in_middle), -3.5f, 0.5f) << "control: where several are as low, the ground is";
 }
 
 TEST(PlaceHeights, CellarsAndFoundationsAreNoFeet) {
