@@ -25,16 +25,6 @@ constexpr std::size_t max_named_pictures = 3;  // missing ones; the others are c
 /// Beside the file, where towns put pictures that the file names without a folder.
 constexpr std::array<const char*, 2> picture_folders{"appearances", "textures"};
 
-/// Where a picture lies: where the file says, else in one of the usual folders beside it.
-Result<std::filesystem::path> picture_path(const Roots& roots, const std::string& name) {
-  Result<std::filesystem::path> path = roots.find(name, {});
-  for (const char* folder : picture_folders) {
-    if (path) break;
-    if (Result<std::filesystem::path> there = roots.find(std::string(folder) + "/" + name, {})) return there;
-  }
-  return path;
-}
-
 /// What a message says of any object: without figures and names.
 std::string kind_of_warning(const std::string& message) {
   std::string kind;
@@ -100,6 +90,15 @@ bool reaches_too_far(const std::vector<std::vector<glm::dvec3>>& rings) {
 }
 
 }  // namespace
+
+Result<std::filesystem::path> city_picture_path(const Roots& roots, const std::string& name) {
+  Result<std::filesystem::path> path = roots.find(name, {});
+  for (const char* folder : picture_folders) {
+    if (path) break;
+    if (Result<std::filesystem::path> there = roots.find(std::string(folder) + "/" + name, {})) return there;
+  }
+  return path;
+}
 
 int CityAssembly::add_material(const CityMaterial& m) {
   const std::array<float, 8> key{m.diffuse.x,  m.diffuse.y,  m.diffuse.z,    m.emissive.x,
@@ -206,7 +205,7 @@ void CityAssembly::read_pictures(Model& model) {
   const Roots roots(file_.parent_path());
   std::vector<Errors> problems(pictures_.size());
   parallel_for(pictures_.size(), [&](std::size_t i) {
-    const Result<std::filesystem::path> path = picture_path(roots, pictures_[i].name);
+    const Result<std::filesystem::path> path = city_picture_path(roots, pictures_[i].name);
     Result<Image8> picture = path ? read_image8(*path) : Result<Image8>(path.errors());
     if (!picture) problems[i] = picture.errors();
     pictures_[i].image = picture ? *std::move(picture) : placeholder_picture();

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/files.h"
 #include "base/result.h"
 #include "formats/terrain/building_kind.h"
 #include "scene/data/model.h"
@@ -48,6 +49,10 @@ struct CityMaterial {
   float transparency = 0.0f;
   std::optional<float> shininess;  ///< 0..1
 };
+
+/// Where a picture of a city file lies below the file's folder: where the file says, else in one of the
+/// folders in which towns put pictures, beside it.
+Result<std::filesystem::path> city_picture_path(const Roots& roots, const std::string& name);
 
 /// Collects surfaces, materials and textures of one city file; `finish` builds the model.
 class CityAssembly {

@@ -40,6 +40,8 @@ class CityCoordinates {
 
   /// Metres: east, north, up. Not finite where a place in degrees lies beyond the map.
   glm::dvec3 operator()(const glm::dvec3& in_file) const;
+  /// True if the first two coordinates of the file are its plan, in metres or feet, east first.
+  bool are_plane() const { return !is_north_first_ && !utm_; }
   /// The middle of the place on the earth (degrees: east, north), where the file's system is known.
   const std::optional<glm::dvec2>& place_deg() const { return place_deg_; }
 

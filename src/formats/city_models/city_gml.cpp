@@ -17,6 +17,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <unordered_map>
 
 #include "base/exception_reason.h"
 #include "formats/city_models/building_attributes.h"
@@ -25,6 +26,7 @@
 #include "formats/city_models/city_gml_3.h"
 #include "formats/city_models/city_lod.h"
 #include "formats/city_models/city_solid.h"
+#include "formats/city_models/georeferenced_textures.h"
 #include "formats/city_models/xml_guard.h"
 #include "formats/terrain/city_surfaces.h"
 #include "formats/terrain/map_system.h"
@@ -213,11 +215,14 @@ class Clues {
 class Reader {
  public:
   Reader(const std::filesystem::path& file, const citygml::CityModel& model, CityCoordinates coordinates,
-         Errors& warnings, std::optional<double> max_detail)
+         std::vector<GeoreferencedTexture> draped, Errors& warnings, std::optional<double> max_detail)
       : model_(model),
         coordinates_(std::move(coordinates)),
+        draped_(std::move(draped)),
         max_detail_(max_detail),
         city_(file, origin(), warnings) {
+    for (const GeoreferencedTexture& texture : draped_)
+      for (const std::string& target : texture.targets) draped_on_.emplace(target, &texture);
     if (const auto themes = model.themes(); !themes.empty()) theme_ = themes.front();
   }
 
@@ -278,7 +283,7 @@ class Reader {
     for (const bool is_named : {true, false})
       for (const Shown& shown : all)
         if (shown.semantics.empty() != is_named && double(shown.geometry->getLOD()) == wanted)
-          read_geometry(*shown.geometry, shown.semantics, shown.placement);
+          read_geometry(*shown.geometry, shown.semantics, shown.placement, nullptr);
     add_surfaces();
     for (unsigned i = 0; i < object.getChildCityObjectsCount(); ++i)
       if (!is_boundary(object.getChildCityObject(i).getType()))
@@ -292,24 +297,37 @@ class Reader {
     return completed(kind_of_building(attributes), whole);
   }
 
-  void read_geometry(const citygml::Geometry& geometry, const std::string& semantics,
-                     const Placement& placement) {
-    for (unsigned i = 0; i < geometry.getPolygonsCount(); ++i)
-      read_polygon(*geometry.getPolygon(i), semantics_of(geometry, semantics), placement);
-    for (unsigned i = 0; i < geometry.getGeometriesCount(); ++i)
-      read_geometry(geometry.getGeometry(i), semantics_of(geometry.getGeometry(i), semantics), placement);
+  /// The picture that lies on a geometry or polygon by its coordinates; `else_drape` where none names it.
+  const GeoreferencedTexture* drape_of(const std::string& id, const GeoreferencedTexture* else_drape) const {
+    const auto found = draped_on_.find(id);
+    return found == draped_on_.end() ? else_drape : found->second;
   }
 
-  void read_polygon(const citygml::Polygon& polygon, const std::string& semantics,
-                    const Placement& placement) {
+  void read_geometry(const citygml::Geometry& geometry, const std::string& semantics,
+                     const Placement& placement, const GeoreferencedTexture* drape) {
+    drape = drape_of(geometry.getId(), drape);
+    for (unsigned i = 0; i < geometry.getPolygonsCount(); ++i)
+      read_polygon(*geometry.getPolygon(i), semantics_of(geometry, semantics), placement, drape);
+    for (unsigned i = 0; i < geometry.getGeometriesCount(); ++i)
+      read_geometry(geometry.getGeometry(i), semantics_of(geometry.getGeometry(i), semantics), placement,
+                    drape);
+  }
+
+  void read_polygon(const citygml::Polygon& polygon, const std::string& semantics, const Placement& placement,
+                    const GeoreferencedTexture* drape) {
     if (!seen_.insert(&polygon).second) return;
     CitySurface surface;
     surface.semantics = semantics;
     const auto texture = polygon.getTextureFor(theme_);
     if (texture) surface.picture = picture_of(*texture);
     if (const auto material = polygon.getMaterialFor(theme_)) surface.material = material_of(*material);
-    read_ring(polygon, polygon.exteriorRing(), placement, surface);
-    for (const auto& hole : polygon.interiorRings()) read_ring(polygon, hole, placement, surface);
+    // Texture coordinates of its own count first; the plan of a template is not that of the place.
+    const bool has_own = !coordinates_of(polygon, polygon.exteriorRing()).empty();
+    drape = has_own || placement.is_template ? nullptr : drape_of(polygon.getId(), drape);
+    if (drape != nullptr) surface.picture = picture_of(drape->picture, false);
+    const PlanToPicture* const lies = drape != nullptr ? &*drape->placed : nullptr;
+    read_ring(polygon, polygon.exteriorRing(), placement, lies, surface);
+    for (const auto& hole : polygon.interiorRings()) read_ring(polygon, hole, placement, lies, surface);
     surfaces_.push_back(std::move(surface));
   }
 
@@ -322,9 +340,10 @@ class Reader {
     surfaces_.clear();
   }
 
-  /// Without the closing point, which repeats the first.
+  /// Without the closing point, which repeats the first. `lies`: where on a picture; null: by the ring's own
+  /// texture coordinates.
   void read_ring(const citygml::Polygon& polygon, const std::shared_ptr<citygml::LinearRing>& ring,
-                 const Placement& placement, CitySurface& surface) const {
+                 const Placement& placement, const PlanToPicture* lies, CitySurface& surface) const {
     const std::vector<TVec3d>& corners = points_of(ring);
     const std::vector<glm::vec2> uvs = coordinates_of(polygon, ring);
     const bool is_mirrored = glm::determinant(glm::dmat3(placement.metres_from_template)) < 0.0;
@@ -336,7 +355,10 @@ class Reader {
       if (!points.empty() && (point == points.back() || (k + 1 == corners.size() && point == points.front())))
         continue;
       points.push_back(point);
-      if (uvs.size() == corners.size()) points_uvs.push_back(uvs[i]);
+      if (lies != nullptr)
+        points_uvs.push_back((*lies)(vec(corners[i])));
+      else if (uvs.size() == corners.size())
+        points_uvs.push_back(uvs[i]);
     }
     if (points.size() < 3) return;
     surface.rings.push_back(std::move(points));
@@ -354,11 +376,13 @@ class Reader {
   }
 
   int picture_of(const citygml::Texture& texture) {
-    const auto [known, is_new] = pictures_.try_emplace(texture.getUrl(), no_index);
     using Wrap = citygml::Texture::WrapMode;
-    const bool repeats = texture.getWrapMode() == Wrap::WM_WRAP || texture.getWrapMode() == Wrap::WM_MIRROR ||
-                         texture.getRepeat();
-    if (is_new) known->second = city_.add_picture(texture.getUrl(), repeats);
+    return picture_of(texture.getUrl(), texture.getWrapMode() == Wrap::WM_WRAP ||
+                                            texture.getWrapMode() == Wrap::WM_MIRROR || texture.getRepeat());
+  }
+  int picture_of(const std::string& file, bool repeats) {
+    const auto [known, is_new] = pictures_.try_emplace(file, no_index);
+    if (is_new) known->second = city_.add_picture(file, repeats);
     return known->second;
   }
 
@@ -371,6 +395,8 @@ class Reader {
 
   const citygml::CityModel& model_;
   CityCoordinates coordinates_;
+  std::vector<GeoreferencedTexture> draped_;
+  std::unordered_map<std::string, const GeoreferencedTexture*> draped_on_;  ///< by what they lie on
   std::optional<double> max_detail_;
   CityAssembly city_;
   std::string theme_;
@@ -402,6 +428,7 @@ std::vector<std::string> system_names(std::string_view xml) {
 struct Gml2 {
   std::string text;
   std::string system;  ///< of its coordinates, the first that it names; may be empty
+  std::vector<GeoreferencedTexture> draped;
 };
 
 /// A file may name its system in several ways, but only one system.
@@ -419,30 +446,6 @@ std::string system_of(const std::string& xml, const FileLocation& where, Errors&
   return names.front();
 }
 
-/// Pictures that lie on a place by its coordinates, and not by those of textures, as aerial ones on terrain.
-void warn_of_georeferenced_textures(std::string_view xml, const FileLocation& where, Errors& warnings) {
-  constexpr std::string_view element = "GeoreferencedTexture", picture = "imageURI>";
-  constexpr std::size_t max_names = 3, longest = 200;
-  std::vector<std::string> names;
-  std::size_t count = 0;
-  for (std::size_t at = xml.find(element); at != std::string_view::npos; at = xml.find(element, at + 1)) {
-    const std::size_t tag = xml.rfind('<', at);
-    if (tag == std::string_view::npos || tag + 1 >= xml.size() || xml[tag + 1] == '/') continue;  // its end
-    ++count;
-    const std::size_t end = std::min(xml.find(element, at + 1), xml.size());
-    const std::size_t uri = xml.find(picture, at);
-    if (uri >= end || names.size() == max_names) continue;
-    const std::size_t begin = uri + picture.size();
-    names.emplace_back(xml.substr(begin, std::min(xml.find('<', begin) - begin, longest)));
-  }
-  if (count == 0) return;
-  warnings.push_back(
-      error_at(where,
-               "pictures that lie on it by their coordinates are left out ({} GeoreferencedTexture: {}), "
-               "and what they cover is plain: export them as ParameterizedTexture, with texture coordinates",
-               count, fmt::join(names, ", ")));
-}
-
 Result<Gml2> read_gml_2(const std::filesystem::path& file, Errors& warnings) {
   const FileLocation where{file.string(), 0, 0};
   Result<XmlText> xml = read_xml(file);
@@ -450,8 +453,7 @@ Result<Gml2> read_gml_2(const std::filesystem::path& file, Errors& warnings) {
   if (xml->root.find("CityModel") == std::string::npos)
     return error_at(where, "this is no CityGML: its outermost element is <{}>; expected <CityModel>",
                     xml->root.substr(0, xml->root.find(' ')));
-  Gml2 read{{}, system_of(xml->bytes, where, warnings)};
-  warn_of_georeferenced_textures(xml->bytes, where, warnings);
+  Gml2 read{{}, system_of(xml->bytes, where, warnings), georeferenced_textures(xml->bytes)};
   if (is_city_gml_3(xml->root)) {
     Result<std::string> text = city_gml_2_of(xml->bytes, where);
     if (!text) return text.errors();
@@ -481,7 +483,9 @@ Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
         CityCoordinates::find(Clues(*city, gml->system).get(), file, warnings);
     if (!coordinates) return coordinates.errors();
     if (place_deg) *place_deg = coordinates->place_deg();
-    return Reader(file, *city, *std::move(coordinates), warnings, max_detail).read();
+    std::vector<GeoreferencedTexture> draped =
+        placed_textures(std::move(gml->draped), coordinates->are_plane(), file, warnings);
+    return Reader(file, *city, *std::move(coordinates), std::move(draped), warnings, max_detail).read();
   } catch (const std::exception& problem) {
     return error_at(where, "libcitygml cannot read it ({})", reason_of(problem));
   } catch (...) {  // Xerces throws what is no std::exception

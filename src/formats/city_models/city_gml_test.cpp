@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/files.h"
+#include "base/image_io.h"
 #include "base/random.h"
 #include "base/test_data.h"
 #include "base/test_folder.h"
@@ -284,6 +285,67 @@ TEST(CityGml, PicturesThatLieByTheirCoordinatesAreNamed) {
                                      "out (1 GeoreferencedTexture: aerial.jpg)"),
             std::string::npos)
       << to_string(warnings);
+}
+
+/// A level surface of 4 x 3 m with a hole, on which a picture lies by its coordinates.
+std::string draped(const std::string& target, const std::string& elements) {
+  std::string text = wall();
+  const auto replace = [&](const std::string& old, const std::string& by) {
+    text.replace(text.find(old), old.size(), by);
+  };
+  replace("0 80004 450000 0 80004 450000 3 80000 450000 3 80000 450000 0",
+          "0 80004 450000 0 80004 450003 0 80000 450003 0 80000 450000 0");
+  replace("80001 450000 1 80001 450000 2 80002 450000 2 80002 450000 1 80001 450000 1",
+          "80001 450001 0 80001 450002 0 80002 450002 0 80002 450001 0 80001 450001 0");
+  replace("<gml:MultiSurface>", "<gml:MultiSurface gml:id=\"all\">");
+  text.insert(text.find("<cityObjectMember>"),
+              fmt::format(R"(<app:appearanceMember xmlns:app="http://www.opengis.net/citygml/appearance/2.0">
+<app:Appearance><app:theme>air</app:theme><app:surfaceDataMember><app:GeoreferencedTexture gml:id="g">
+<app:imageURI>aerial.png</app:imageURI>{}<app:target>#{}</app:target></app:GeoreferencedTexture>
+</app:surfaceDataMember></app:Appearance></app:appearanceMember>)",
+                          elements, target));
+  return text;
+}
+
+TEST(CityGml, APictureLiesWhereItsWorldFileOrItsElementsSay) {
+  const std::string in_elements =
+      "<app:preferWorldFile>false</app:preferWorldFile><app:referencePoint><gml:Point><gml:pos>80000 450000"
+      "</gml:pos></gml:Point></app:referencePoint><app:orientation>0.25 0 0 0.333333333</app:orientation>";
+  for (const auto& [target, elements] :
+       {std::pair<std::string, std::string>{"p", ""}, {"all", ""}, {"p", in_elements}}) {
+    const TestFolder folder;
+    ASSERT_TRUE(write_image(folder.path() / "aerial.png", Image8(8, 6, 3)));
+    // Half a metre to a pixel, from the middle of the first one in the north-west.
+    if (elements.empty()) folder.write("aerial.pgw", "+0.5\n0\n0\n-0.5\n80000.25\n450002.75\n");
+    Errors warnings;
+    const Result<Model> city = read_city_gml(folder.write("a.gml", draped(target, elements)), warnings);
+    ASSERT_TRUE(city) << to_string(city.errors());
+    EXPECT_TRUE(warnings.empty()) << to_string(warnings);
+    std::size_t corners = 0;
+    for (const Part& part : city->parts) {
+      EXPECT_NE(city->materials[std::size_t(part.material)].base_colour_texture, no_index) << target;
+      ASSERT_EQ(part.mesh.uvs.size(), part.mesh.positions.size());
+      for (std::size_t i = 0; i < part.mesh.uvs.size(); ++i, ++corners) {
+        const glm::dvec3 in_file = glm::dvec3(part.mesh.positions[i]) + city->origin;
+        EXPECT_NEAR(part.mesh.uvs[i].x, (in_file.x - 80000.0) / 4.0, 1e-3) << target;
+        EXPECT_NEAR(part.mesh.uvs[i].y, (450003.0 - in_file.y) / 3.0, 1e-3) << target;
+      }
+    }
+    EXPECT_GE(corners, 8u);
+  }
+}
+
+TEST(CityGml, APictureWithoutAPlaceCoversNothing) {
+  const TestFolder folder;
+  ASSERT_TRUE(write_image(folder.path() / "aerial.png", Image8(8, 6, 3)));
+  folder.write("aerial.pgw", "0.5\n0\n0\n0\n80000.25\n450002.75\n");  // all rows in one
+  Errors warnings;
+  const Result<Model> city = read_city_gml(folder.write("a.gml", draped("p", "")), warnings);
+  ASSERT_TRUE(city) << to_string(city.errors());
+  EXPECT_NE(to_string(warnings).find("left out (1 GeoreferencedTexture: aerial.png)"), std::string::npos)
+      << to_string(warnings);
+  for (const Part& part : city->parts)
+    EXPECT_EQ(city->materials[std::size_t(part.material)].base_colour_texture, no_index);
 }
 
 TEST(CityGml, HostileXmlIsRefusedByItsLine) {

@@ -28,14 +28,14 @@ OsmBuildingRelations::OsmBuildingRelations(const OsmFile& osm) {
       std::string name = fmt::format("{} {}", member.type, member.id);
       if (member.role == "outline") relation_of_outline_.emplace(std::move(name), parts_.size() - 1);
       if (member.role != "part") continue;
-      relation_of_part_.emplace(name, parts_.size() - 1);
+      named_parts_.insert(name);
       parts.push_back(std::move(name));
     }
   }
 }
 
 bool OsmBuildingRelations::is_part(const std::string& name) const {
-  return relation_of_part_.contains(name) && !relation_of_outline_.contains(name);
+  return named_parts_.contains(name) && !relation_of_outline_.contains(name);
 }
 
 std::span<const std::string> OsmBuildingRelations::parts_of(const std::string& outline) const {

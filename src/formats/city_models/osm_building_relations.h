@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "formats/city_models/osm_areas.h"
@@ -23,7 +24,8 @@ class OsmBuildingRelations {
   std::span<const std::string> parts_of(const std::string& outline) const;
 
  private:
-  std::unordered_map<std::string, std::size_t> relation_of_outline_, relation_of_part_;
+  std::unordered_map<std::string, std::size_t> relation_of_outline_;
+  std::unordered_set<std::string> named_parts_;
   std::vector<std::vector<std::string>> parts_;  ///< by relation
 };
 

@@ -2,8 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "formats/city_models/test_osm.h"
 #include "formats/terrain/utm.h"
+#include "scene/data/test_scene.h"
+#include "scene/roads/road_beds.h"
+#include "scene/roads/road_builder.h"
+#include "scene/roads/shaped_terrain.h"
 
 namespace parvis::scene {
 namespace {
@@ -29,6 +36,41 @@ TEST(OsmEarthworks, TheGroundIsLevelAcrossAStreetAndAsItWasFarFromIt) {
   const GroundOnMap below_ramp = ground_shaped_for({road_at(100.5)}, bare, origin);
   EXPECT_NEAR(below_ramp({1000.0, 4996.0}), bare({1000.0, 4996.0}), 1e-3) << "a ramp has its own dam";
   EXPECT_FALSE(ground_shaped_for({road_at(100.0)}, {}, origin));
+}
+
+TEST(OsmEarthworks, TheGroundInTheCornersOfCrossingsIsThatOfTheTerrain) {
+  constexpr float rise = 0.2f;
+  std::vector<Road> roads(2);
+  const glm::vec2 oblique(0.5f, 0.8660254f);  // 60 degrees: turns go round the corners outside of both beds
+  for (int along_m = -50; along_m <= 50; along_m += 10) {
+    const glm::vec2 other = float(along_m) * oblique;
+    roads[0].path.emplace_back(float(along_m), 0.0f, 0.0f);
+    roads[1].path.emplace_back(other, rise * other.y);
+  }
+  Scene scene;
+  auto hill =
+      model_of(quad({-60, -60, -12}, {60, -60, -12}, {60, 60, 12}, {-60, 60, 12}), matt(glm::vec3(1)));
+  hill->parts.front().object = "TINRelief";
+  add(scene, hill);
+  scene.roads = *build_road_graph(roads);
+  ASSERT_TRUE(shape_terrain(scene, roads));
+
+  const GroundOnMap bare = [](glm::dvec2 p) { return double(rise) * p.y; };
+  const GroundOnMap shaped = ground_shaped_for(roads, bare, glm::dvec3(0.0));
+  std::vector<RoadBed> without_turns(2);
+  for (std::size_t i = 0; i < roads.size(); ++i) {
+    without_turns[i].half_m = half_bed_m(roads[i]);
+    for (const glm::vec3& point : roads[i].path) without_turns[i].points.push_back({point});
+  }
+  const Earthworks sharp(without_turns);
+  constexpr double tolerance_m = 0.005;  // of heights in floats, and of points between those of a bed
+  double error_m = 0.0, sharp_error_m = 0.0;
+  for (const glm::vec3& p : scene.objects.front().model->parts.front().mesh.positions) {
+    error_m = std::max(error_m, std::abs(shaped(glm::dvec2(p)) - double(p.z)));
+    sharp_error_m = std::max(sharp_error_m, double(std::abs(sharp.at(glm::vec2(p), rise * p.y) - p.z)));
+  }
+  EXPECT_LT(error_m, tolerance_m);
+  EXPECT_GT(sharp_error_m, 0.03) << "control: without the turns";
 }
 
 TEST(OsmEarthworks, HousesAndTreesStandOnTheGroundBesideTheStreet) {

@@ -1,0 +1,44 @@
+// Pictures that lie on a place by its coordinates, as aerial ones on terrain: CityGML's GeoreferencedTexture.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+
+namespace parvis::scene {
+
+/// From a point of the plan, in the file's own coordinates, to a place in a picture: 0..1, v down from the
+/// top.
+struct PlanToPicture {
+  glm::dmat2 uv_from_plan{0.0};  ///< about `origin`
+  glm::dvec2 origin{0.0}, uv_at_origin{0.0};
+
+  glm::vec2 operator()(const glm::dvec3& in_file) const {
+    return glm::vec2(uv_from_plan * (glm::dvec2(in_file) - origin) + uv_at_origin);
+  }
+};
+
+/// One such picture as the file describes it.
+struct GeoreferencedTexture {
+  std::string picture;                  ///< its file
+  std::vector<std::string> targets;     ///< identifiers (gml:id) of the polygons and surfaces that it covers
+  bool prefers_world_file = true;       ///< over `placed`
+  std::optional<PlanToPicture> placed;  ///< by the elements referencePoint and orientation
+};
+
+/// Those of a file in CityGML.
+std::vector<GeoreferencedTexture> georeferenced_textures(std::string_view xml);
+
+/// Finds out where each lies: by a world file beside its picture (aerial.jgw for aerial.jpg: ESRI's six
+/// numbers) or by its own elements. Those of which neither is there, or whose picture cannot be read, and all
+/// where the file's coordinates are no metres or feet, east first (`are_plane`), are left out with one
+/// warning at `file`.
+std::vector<GeoreferencedTexture> placed_textures(std::vector<GeoreferencedTexture> textures, bool are_plane,
+                                                  const std::filesystem::path& file, Errors& warnings);
+
+}  // namespace parvis::scene
