@@ -37,6 +37,8 @@ TEST(Ifc4x3, KindsThatIfc4HasNotAreCounted) {
             "2 IFCPAVEMENT, 1 IFCROAD");
   EXPECT_EQ(kinds_beyond_ifc_4("#1=IFCWALL('the IFCROAD');#2=IFCROADSIGN($);"), "");
   EXPECT_EQ(kinds_beyond_ifc_4("#1="), "");
+  EXPECT_EQ(kinds_beyond_ifc_4("#1=IFCREINFORCEDSOIL($);#2=IFCIMPACTPROTECTIONDEVICE($);#3=IFCVEHICLE($);"),
+            "1 IFCIMPACTPROTECTIONDEVICE, 1 IFCREINFORCEDSOIL, 1 IFCVEHICLE");
 }
 
 TEST(Ifc4x3, TheSchemaIsThatOfTheHeader) {

@@ -70,7 +70,9 @@ void place_on_map(const IfcMapConversion& conversion, double project_unit_m, Ifc
   const glm::dvec2 axis(value_of(conversion.m_XAxisAbscissa, 1.0), value_of(conversion.m_XAxisOrdinate, 0.0));
   if (!(reach * unit_m < farthest_m) || !(std::abs(given.z) * unit_m < farthest_m)) return;
   place.origin = unit_m * given;
-  if (glm::length(axis) > 0.0) place.x_axis = glm::normalize(axis);
+  // Not by glm::length, whose squares overflow for axes that are finite.
+  const double length = std::hypot(axis.x, axis.y);
+  if (length > 0.0 && std::isfinite(length)) place.x_axis = axis / length;
 }
 
 /// Degrees, minutes, seconds and their millionths, all of one sign; nothing where they are none.

@@ -330,6 +330,16 @@ TEST_F(IfcTest, ABuildingOfTheNewestSchemaIsReadAndWhatItAddsIsNamed) {
   EXPECT_NE(to_string(warnings_).find("are left out: 1 IFCROAD"), std::string::npos) << to_string(warnings_);
 }
 
+TEST_F(IfcTest, HugeAxesOfAMapConversionTurnTheBuilding) {
+  const std::string site = "'Square',$,$,#17,$,$,.ELEMENT.,$,$,$,$,$);";
+  const Result<Model> placed =
+      read_ifc(changed(site, site + "\n#9001=IFCPROJECTEDCRS('EPSG:25831',$,$,$,$,$,$);\n"
+                                    "#9003=IFCMAPCONVERSION(#13,#9001,566000.,5933000.,12.5,0.,1.E200,1.);"),
+               warnings_);
+  ASSERT_TRUE(placed) << to_string(placed.errors());
+  EXPECT_NEAR(bounds(*placed).size().y, bounds(pavilion()).size().x, 1e-3f) << "its x axis runs north";
+}
+
 TEST_F(IfcTest, MapConversionPutsTheBuildingOnItsMapAndTheSiteOnTheEarth) {
   const std::string site = "'Square',$,$,#17,$,$,.ELEMENT.,$,$,$,$,$);";
   const auto on_map = [&](const char* unit, const char* east_north) {
