@@ -15,7 +15,7 @@ inline void expect_valid_gltf(const std::filesystem::path& folder,
                               const std::filesystem::path& source_folder) {
   constexpr int skipped = 77;  // the script's
   const std::string script = (source_folder / "script" / "validate_gltf").string();
-  const int status = std::system((script + " '" + folder.string() + "'/*.glb").c_str());
+  const int status = std::system(("'" + script + "' '" + folder.string() + "'/*.glb").c_str());
   if (WIFEXITED(status) && WEXITSTATUS(status) == skipped)
     GTEST_SKIP() << "skipped: the Khronos validator is not here";
   EXPECT_EQ(status, 0);
