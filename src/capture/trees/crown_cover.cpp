@@ -114,11 +114,11 @@ float CrownCover::depth_behind(const CoveringBillboard& billboard) const {
   return 0.5f - 0.5f * behind.z / behind.w;
 }
 
-std::vector<float> CrownCover::hiding_depths() const {
-  std::vector<float> hiding(visible_.size(), 1.0f);
+std::span<const float> CrownCover::hiding_depths() {
+  hiding_.assign(visible_.size(), 1.0f);
   for (int y = 0; y < size_.y; ++y)
     for (int x = 0; x < size_.x; ++x) {
-      float& farthest = hiding[std::size_t(y) * std::size_t(size_.x) + std::size_t(x)];
+      float& farthest = hiding_[std::size_t(y) * std::size_t(size_.x) + std::size_t(x)];
       for (int row = std::max(y - around_squares, 0); row <= std::min(y + around_squares, size_.y - 1); ++row)
         for (int column = std::max(x - around_squares, 0);
              column <= std::min(x + around_squares, size_.x - 1); ++column) {
@@ -126,7 +126,7 @@ std::vector<float> CrownCover::hiding_depths() const {
           farthest = std::min(farthest, visible_[near] < min_visible_ ? depths_[near] : 0.0f);
         }
     }
-  return hiding;
+  return hiding_;
 }
 
 }  // namespace parvis::trees

@@ -42,8 +42,9 @@ class CrownCover {
   /// The squares that billboards which were added may touch: low corner, high corner excluded.
   glm::ivec4 touched() const { return {touched_low_, touched_high_}; }
   /// For each square, row by row from below, the depth (1 near, 0 far: as the renderer reverses it) behind
-  /// which less than `min_visible` is seen in it and in its neighbours; 0: nothing is hidden.
-  std::vector<float> hiding_depths() const;
+  /// which less than `min_visible` is seen in it and in its neighbours; 0: nothing is hidden. Good until the
+  /// next call.
+  std::span<const float> hiding_depths();
 
  private:
   struct Placed {
@@ -62,6 +63,7 @@ class CrownCover {
   float min_visible_ = 0.0f;
   std::vector<float> visible_;
   std::vector<float> depths_;  // behind all that a square needs to hide the rest
+  std::vector<float> hiding_;  // what hiding_depths gave out: its memory is used again in each frame
 };
 
 }  // namespace parvis::trees

@@ -61,7 +61,7 @@ TEST_F(CrownCoverTest, DepthHidesWhatIsBehind) {
     const glm::vec4 clip = view_.clip_from_world * glm::vec4(0.0f, distance_m, 0.0f, 1.0f);
     return 0.5f - 0.5f * clip.z / clip.w;
   };
-  const auto hiding_at = [&](int x, int y) { return cover_.hiding_depths().at(std::size_t(32 * y + x)); };
+  const auto hiding_at = [&](int x, int y) { return cover_.hiding_depths()[std::size_t(32 * y + x)]; };
   cover_.begin(view_, 0.01f);
   cover_.add(square(10, 4), mask_of({255, 255, 255, 255}), glm::vec2(1));  // 6.4 squares to each side
   ASSERT_EQ(cover_.squares(), glm::ivec2(32));
@@ -82,6 +82,19 @@ TEST_F(CrownCoverTest, DepthHidesWhatIsBehind) {
   EXPECT_GT(hiding, depth_at(40));
   cover_.add(square(60, 30), mask_of({128, 128, 128, 128}), glm::vec2(1));
   EXPECT_EQ(hiding_at(16, 16), hiding);
+}
+
+TEST_F(CrownCoverTest, FramesShareTheMemoryOfDepths) {
+  cover_.begin(view_, 0.01f);
+  cover_.add(square(10, 4), mask_of({255, 255, 255, 255}), glm::vec2(1));
+  const std::span<const float> first = cover_.hiding_depths();
+  const float* const memory = first.data();
+  EXPECT_GT(first[32 * 16 + 16], 0.0f);
+  cover_.begin(view_, 0.01f);
+  const std::span<const float> second = cover_.hiding_depths();
+  EXPECT_EQ(second.data(), memory);
+  EXPECT_EQ(second.size(), std::size_t(32 * 32));
+  EXPECT_EQ(second[32 * 16 + 16], 0.0f) << "nothing of the frame before is left";
 }
 
 TEST_F(CrownCoverTest, NothingIsHiddenWhereAllIsDrawn) {

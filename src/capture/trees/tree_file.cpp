@@ -305,7 +305,8 @@ BillboardTree as_stored(BillboardTree tree) {
   return tree;
 }
 
-Packing packed_disjoint_alphas(const BillboardTree& tree, std::size_t window) {
+Packing packed_disjoint_alphas(const BillboardTree& tree) {
+  constexpr std::size_t window = 512;  // textures with room that each is compared with
   Packing packing;
   const std::size_t per_texture = std::size_t(tree.texels_per_side) * std::size_t(tree.texels_per_side);
   using Mask = std::vector<std::uint64_t>;

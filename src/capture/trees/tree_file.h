@@ -45,8 +45,8 @@ struct Packing {
     return textures > 0 ? (3.0 * double(packed) + double(textures)) / (4.0 * double(textures)) : 1.0;
   }
 };
-/// Which textures of each photograph share a texture, greedily in order, among the last `window` that have
+/// Which textures of each photograph share a texture, greedily in order, among the last few hundred that have
 /// room.
-Packing packed_disjoint_alphas(const BillboardTree& tree, std::size_t window = 512);
+Packing packed_disjoint_alphas(const BillboardTree& tree);
 
 }  // namespace parvis::trees

@@ -24,7 +24,7 @@ void TreeLayer::resize(glm::ivec2 size) {
   glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
 }
 
-void TreeLayer::prepare(const CrownCover& cover) {
+void TreeLayer::prepare(CrownCover& cover) {
   squares_ = cover.squares();
   if (glm::any(glm::greaterThan(squares_, squares_room_))) {
     squares_room_ = glm::max(squares_, squares_room_);

@@ -20,7 +20,7 @@ class TreeLayer {
   static Result<TreeLayer> create();
 
   /// Takes over what the billboards of a main view hide, when all have been added to `cover`.
-  void prepare(const CrownCover& cover);
+  void prepare(CrownCover& cover);
   /// In the view's blend pass: binds the layer, with the view's depth, in place of the view's target.
   void begin(const render::View& view);
   /// Blends the layer over the view, and binds the view's target again.

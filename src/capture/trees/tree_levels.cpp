@@ -174,11 +174,11 @@ BillboardTree coarser(const BillboardTree& tree) {
   return result;
 }
 
-TreeLevels levels_of(BillboardTree tree, std::size_t max_last_cells) {
+TreeLevels levels_of(BillboardTree tree) {
   TreeLevels result;
   result.box = tree.grid.box(), result.foot = foot_of(tree);
   result.levels.push_back(std::move(tree));
-  while (result.levels.back().grid.size() > max_last_cells && result.levels.back().grid.side() > 1)
+  while (result.levels.back().grid.size() > 1 && result.levels.back().grid.side() > 1)
     result.levels.push_back(coarser(result.levels.back()));
   result.crown = crown_light(result.levels);
   return result;

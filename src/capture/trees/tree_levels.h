@@ -22,8 +22,8 @@ struct TreeLevels {
 /// same width, up to a number of texels per side.
 BillboardTree coarser(const BillboardTree& tree);
 
-/// All levels down to one in which the tree has at most `max_last_cells` billboards.
-TreeLevels levels_of(BillboardTree tree, std::size_t max_last_cells = 1);
+/// All levels down to a single billboard.
+TreeLevels levels_of(BillboardTree tree);
 
 /// The width that a texel of the level covers, in the tree's frame, metres.
 float texel_size_m(const BillboardTree& tree);

@@ -17,6 +17,7 @@ constexpr int picture_factor = 4;        // 514 x 613 pixels
 constexpr std::size_t photographs = 12;  // from the side
 constexpr std::size_t apart = 5;         // photographs between the two that are left out
 constexpr float metres_per_millimetre = 1e-3f;
+constexpr Target min_iou{0.85, false};
 
 /// A photograph with its matte as alpha, reduced.
 Result<Image8> matted(const std::filesystem::path& photograph, const std::filesystem::path& matte) {
@@ -126,7 +127,7 @@ Status measure_maize(const FigureOptions& options, const FigureSink& sink) {
   }
   mean /= double(folds), mean_of_wrong /= double(folds);
   if (Status status = sink.figure(key, mean.silhouette_iou); !status) return status;
-  return sink.figure(key + "_by_the_next_camera", mean_of_wrong.silhouette_iou);
+  return sink.control(key + "_by_the_next_camera", mean_of_wrong.silhouette_iou, min_iou);
 }
 
 }  // namespace parvis::trees

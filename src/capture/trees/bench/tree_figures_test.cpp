@@ -59,5 +59,28 @@ TEST(TreeBench, AFigureThatIsNoNumberIsAnError) {
   EXPECT_EQ(added, 1);
 }
 
+TEST(TreeBench, AControlThatReachesTheTargetIsSaid) {
+  int added = 0, rows = 0;
+  const FigureSink sink{
+      [&](const std::string&, double) { ++added; }, [&](const std::string&) { ++rows; }, {}};
+  const Target min_psnr_db{26.0, false}, max_megabytes{6.6, true};
+  EXPECT_TRUE(sink.control("psnr_db_22_naive", 20.0, min_psnr_db));
+  EXPECT_TRUE(sink.control("tree_mb_uncompressed", 13.5, max_megabytes));
+  EXPECT_EQ(rows, 0) << "both miss it, as they must";
+  EXPECT_TRUE(sink.control("psnr_db_22_naive", 26.0, min_psnr_db));
+  EXPECT_TRUE(sink.control("tree_mb_uncompressed", 6.6, max_megabytes));
+  EXPECT_EQ(rows, 2);
+  EXPECT_EQ(added, 4);
+  EXPECT_FALSE(sink.control("psnr_db_22_naive", std::nan(""), min_psnr_db));
+}
+
+TEST(TreeBench, TwoProcessesThatDoNotKnowOfEachOtherAreNoTwo) {
+  const std::string alone = "out/oak.volume: 3455 cells, 0.12 MB, 1 process\n";
+  EXPECT_TRUE(says_processes(alone, 1));
+  EXPECT_FALSE(says_processes(alone + alone, 2)) << "each did all of the work";
+  EXPECT_TRUE(says_processes("out/oak.volume: 3455 cells, 0.12 MB, 2 processes\n", 2));
+  EXPECT_FALSE(says_processes("out/oak.volume: 3455 cells, 0.12 MB, 12 processes\n", 2));
+}
+
 }  // namespace
 }  // namespace parvis::trees
