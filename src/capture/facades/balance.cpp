@@ -23,6 +23,9 @@ constexpr std::size_t min_witnesses = 3;
 /// Pixels per side of the blocks that occluders are found in: colours are means of 5 x 5 pixels already, and
 /// time grows with the square of the photographs' number.
 constexpr int trust_block = 2;
+/// Blocks per side of a square that must all distrust a place: a block that stands alone is a reflection or
+/// noise. What is before the model and only two pixels wide reaches farther, as colours are means.
+constexpr int support_blocks = 2;
 
 double balanced(const Balance& balance, const Sighting& sighting, std::size_t c) {
   return balance.scale[c] * double(sighting.srgb[int(c)]) + balance.offset[c];
@@ -84,6 +87,21 @@ float trust_in(glm::vec3 own, const Sightings& all, std::uint32_t photo) {
   return 1.0f - agreement * glm::smoothstep(same_colour, other_colour, difference);
 }
 
+/// Trust per block, where a block is distrusted only together with a square of blocks that holds it.
+ImageF supported(const ImageF& trust) {
+  const int across = std::min(support_blocks, trust.width), down = std::min(support_blocks, trust.height);
+  ImageF opened(trust.width, trust.height, 1, 1.0f);
+  for (int top = 0; top + down <= trust.height; ++top)
+    for (int left = 0; left + across <= trust.width; ++left) {
+      float of_square = 0.0f;
+      for (int y = top; y < top + down; ++y)
+        for (int x = left; x < left + across; ++x) of_square = std::max(of_square, *trust.at(x, y));
+      for (int y = top; y < top + down; ++y)
+        for (int x = left; x < left + across; ++x) *opened.at(x, y) = std::min(*opened.at(x, y), of_square);
+    }
+  return opened;
+}
+
 /// The least trust of the pixels around each: averaging the colours has hidden the occluder's rim.
 ImageF spread_out(const ImageF& trust) {
   constexpr int radius = 3;
@@ -134,19 +152,23 @@ void find_occluders(std::span<PreparedPhoto> photos) {
   Progress progress("finding what is not in the model", photos.size());
   for (std::size_t i = 0; i < photos.size(); ++i) {
     const PreparedPhoto& photo = photos[i];
-    ImageF trust(photo.view.width, photo.view.height, 1, 1.0f);
-    parallel_for(std::size_t((photo.view.height + trust_block - 1) / trust_block), [&](std::size_t row) {
+    const auto blocks = [](int pixels) { return (pixels + trust_block - 1) / trust_block; };
+    ImageF of_blocks(blocks(photo.view.width), blocks(photo.view.height), 1, 1.0f);
+    parallel_for(std::size_t(of_blocks.height), [&](std::size_t row) {
       const int y = trust_block * int(row);
       for (int x = 0; x < photo.view.width; x += trust_block) {
         const float depth = photo.depths[std::size_t(y) * std::size_t(photo.view.width) + std::size_t(x)];
         if (!std::isfinite(depth)) continue;
         const Sightings found = sightings(photos, srgb, photo.view.to_world({x + 0.5, y + 0.5}, depth));
         const float* own = srgb[i].at(x, y);
-        const float trusted = trust_in(glm::vec3(own[0], own[1], own[2]), found, std::uint32_t(i));
-        for (int v = y; v < std::min(y + trust_block, photo.view.height); ++v)
-          for (int u = x; u < std::min(x + trust_block, photo.view.width); ++u) *trust.at(u, v) = trusted;
+        *of_blocks.at(x / trust_block, int(row)) =
+            trust_in(glm::vec3(own[0], own[1], own[2]), found, std::uint32_t(i));
       }
     });
+    of_blocks = supported(of_blocks);
+    ImageF trust(photo.view.width, photo.view.height, 1);
+    for (int y = 0; y < trust.height; ++y)
+      for (int x = 0; x < trust.width; ++x) *trust.at(x, y) = *of_blocks.at(x / trust_block, y / trust_block);
     trust = spread_out(trust);
     for (std::size_t p = 0; p < photo.trust.pixels.size(); ++p)
       trust.pixels[p] = std::min(trust.pixels[p], photo.trust.pixels[p]);

@@ -24,8 +24,8 @@ std::vector<Balance> balances(std::span<const PreparedPhoto> photos, int step = 
 void apply(const Balance& balance, PreparedPhoto& photo);
 
 /// Sets every photograph's trust by comparing it with all others through the model: 0 where its colour,
-/// averaged over 5x5 pixels, is far from the median of all, 1 where it is near, or where fewer than two
-/// others see the point.
+/// averaged over 5x5 pixels, is far from the median of all, 1 where it is near, where fewer than three
+/// others see the point, or where a block of 2x2 pixels alone is far from it.
 void find_occluders(std::span<PreparedPhoto> photos);
 
 }  // namespace parvis::facades

@@ -40,6 +40,8 @@ std::optional<glm::dvec2> seen_at(const PreparedPhoto& photo, glm::dvec3 point) 
     return std::nullopt;
   const std::size_t index = std::size_t(pixel.y) * std::size_t(photo.view.width) + std::size_t(pixel.x);
   if (not_hidden(float(p.z), photo.depths[index], depth_tolerance) < 0.5f) return std::nullopt;
+  // As the layers do it (distrust): what stands before the model is not seen of it.
+  if (!photo.trust.empty() && photo.trust.pixels[index] < 0.5f) return std::nullopt;
   return pixel;
 }
 
@@ -61,6 +63,11 @@ double finest_pixels(const LayerTriangle& triangle, glm::dvec3 normal,
          {middle, 0.8 * c[0] + 0.2 * middle, 0.8 * c[1] + 0.2 * middle, 0.8 * c[2] + 0.2 * middle})
       if (seen_at(photo, point)) finest = std::max(finest, pixels_per_metre(photo, point, normal));
   return finest;
+}
+
+double area(const LayerTriangle& triangle) {
+  const auto& c = triangle.corners;
+  return 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
 }
 
 /// A point of a surface that a picture asks for.
@@ -236,7 +243,7 @@ void interpolate_holes(const ItemBuffer& seen, ImageF& picture) {
 
 BlendSettings lumigraph(int best) {
   BlendSettings settings;
-  settings.best = best, settings.uses_trust = false, settings.max_contradiction = 1.0f;
+  settings.best = best, settings.max_contradiction = 1.0f;
   return settings;
 }
 
@@ -276,7 +283,15 @@ std::size_t extracted_texture_bytes(const LayerModel& model, std::span<const Pre
     glm::dvec2 low{1e300}, high{-1e300};
   };
   std::map<std::uint32_t, Face> faces;
+  double bytes = 0.0;  // BC7: one per texel
   for (const LayerTriangle& triangle : model.triangles) {
+    if (model.objects[triangle.object].is_dense) {
+      // A scan or a relief is unfolded as a whole: a rectangle with borders for each of its triangles would
+      // be mostly waste. What its charts waste is not counted.
+      const double finest = finest_pixels(triangle, frame_of(triangle).normal, photos);
+      bytes += area(triangle) * finest * finest;
+      continue;
+    }
     auto [at, is_new] = faces.try_emplace(triangle.face);
     if (is_new) at->second.frame = frame_of(triangle);
     Face& face = at->second;
@@ -287,12 +302,11 @@ std::size_t extracted_texture_bytes(const LayerModel& model, std::span<const Pre
       face.low = glm::min(face.low, place), face.high = glm::max(face.high, place);
     }
   }
-  double bytes = 0.0;
   for (const auto& [number, face] : faces) {
     if (face.finest <= 0.0) continue;
     const glm::dvec2 side =
         glm::min(glm::ceil((face.high - face.low) * face.finest) + 4.0, double(max_texture_side));
-    bytes += side.x * side.y;  // BC7: a byte per texel; 4 texels of border as ours
+    bytes += side.x * side.y;  // with 4 texels of border
   }
   return std::size_t(bytes * 21.0 / 16.0);  // three levels of mipmaps, as ours
 }

@@ -25,12 +25,14 @@ inline constexpr BaselineMethod baseline_methods[]{
 /// The name of the method, as in the keys of the bench.
 const char* name_of(BaselineMethod method);
 
-/// What `view` sees of the model by a baseline: linear RGBA, alpha 0 where the method shows nothing.
+/// What `view` sees of the model by a baseline: linear RGBA, alpha 0 where the method shows nothing. To be
+/// compared with layers it needs photographs that are balanced and have their trust, as layers have them.
 ImageF baseline_view(BaselineMethod method, const LayerModel& model, const View& view,
                      std::span<const PreparedPhoto> photos);
 
-/// Bytes of the textures that extraction needs at the resolution of the photographs, compressed as ours are:
-/// per face a rectangle in its plane, at the finest pixels that any photograph has of it.
+/// Bytes of the textures that extraction needs at the resolution of the photographs, compressed as ours are,
+/// at the finest pixels that any photograph has of a face: per face a rectangle in its plane; dense objects
+/// are unfolded as a whole, without waste.
 std::size_t extracted_texture_bytes(const LayerModel& model, std::span<const PreparedPhoto> photos);
 
 }  // namespace parvis::facades

@@ -13,6 +13,7 @@
 #include "capture/facades/packed_facade.h"
 #include "capture/facades/rephotography.h"
 #include "capture/facades/scan_trim.h"
+#include "capture/facades/view_choice.h"
 
 namespace parvis::facades {
 namespace {
@@ -36,20 +37,74 @@ Image8 model_mask(const LayerModel& model, const View& view) {
   return mask;
 }
 
+/// A facade as it is drawn: a view compares the photographs alone that are chosen for its eye.
+class DrawnFacade {
+ public:
+  explicit DrawnFacade(const PackedFacade& facade)
+      : facade_(facade), texels_(facade), chooser_(facade), drawn_(facade) {
+    drawn_.blocks.clear();  // the texels hold them
+  }
+  ImageF view(const View& view) { return this->view(view, item_buffer(model_of(facade_), view)); }
+  ImageF view(const View& view, const ItemBuffer& seen) {
+    const ViewChoice choice = chooser_.choice(glm::vec3(view.centre), float(1.0 / view.fx));
+    drawn_.lists = choice.lists, drawn_.candidates = facade_.candidates;
+    drawn_.candidates.insert(drawn_.candidates.end(), choice.candidates.begin(), choice.candidates.end());
+    return view_of_facade(drawn_, texels_, view, seen);
+  }
+  /// The same with other lists.
+  ImageF view_of(const std::vector<glm::uvec2>& lists, const View& view, const ItemBuffer& seen) {
+    drawn_.lists = lists, drawn_.candidates = facade_.candidates;
+    return view_of_facade(drawn_, texels_, view, seen);
+  }
+
+ private:
+  const PackedFacade& facade_;
+  FacadeTexels texels_;
+  ViewChooser chooser_;
+  PackedFacade drawn_;
+};
+
+/// 0 where the layers do not count a pixel of the model as seen.
+ImageF trust_of(const LayeredView& layered, const PreparedPhoto& photo) {
+  ImageF trust(photo.view.width, photo.view.height, 1);
+  for (std::size_t i = 0; i < trust.pixels.size(); ++i) trust.pixels[i] = !std::isfinite(photo.depths[i]);
+  for (std::size_t l = 0; l < layered.layers.size(); ++l) {
+    const PixelBox& box = layered.layers[l].box;
+    for (int y = 0; y < box.height; ++y)
+      for (int x = 0; x < box.width; ++x)
+        if (layered.masks[l].at(x, y)[1]) *trust.at(x + box.x, y + box.y) = 1.0f;
+  }
+  return trust;
+}
+
+/// The photographs as the layers have them, so that baselines get what layers get: balanced, with what is not
+/// in the model found by colour.
+std::vector<PreparedPhoto> prepared_as_layers(const std::vector<Photograph>& used, const PlaceLayers& place) {
+  std::vector<PreparedPhoto> prepared;
+  for (std::size_t i = 0; i < place.names.size(); ++i) {
+    const auto photo = std::ranges::find(used, place.names[i], &Photograph::name);
+    Result<PreparedPhoto> one = prepared_photo(*photo, place.model);
+    if (!one) continue;
+    apply(place.balances[i], *one);
+    one->trust = trust_of(place.layered[i], *one);
+    prepared.push_back(*std::move(one));
+  }
+  return prepared;
+}
+
 void add(MethodFigures& figures, const Rephotography& judged, double share) {
   figures.psnr_cc_db += share * judged.psnr_cc_db, figures.rephoto += share * judged.error;
   figures.covered_percent += share * judged.covered_percent;
 }
 
 /// `given`: the model before it was trimmed, so that what was cut off lacks in what is covered.
-Status judge_held_out(const std::vector<const Photograph*>& held_out, const LayerModel& given,
-                      const PlaceLayers& place, const PackedFacade& facade,
+Status judge_held_out(const std::vector<Photograph>& held_out, const LayerModel& given,
+                      const PlaceLayers& place, DrawnFacade& facade,
                       const std::vector<PreparedPhoto>& prepared, bool with_baselines,
                       PlaceFigures& figures) {
-  const FacadeTexels texels(facade);
   std::vector<Image8> truths;
-  for (const Photograph* photo : held_out) {
-    Result<Image8> truth = read_image8(photo->file);
+  for (const Photograph& photo : held_out) {
+    Result<Image8> truth = read_image8(photo.file);
     if (!truth) return truth.errors();
     truths.push_back(*std::move(truth));
   }
@@ -60,10 +115,10 @@ Status judge_held_out(const std::vector<const Photograph*>& held_out, const Laye
   if (held_out.size() > 1) figures.exchanged.method = "control_exchanged";
   for (std::size_t i = 0; i < held_out.size(); ++i) {
     const Image8 &truth = truths[i], &another = truths[(i + 1) % truths.size()];
-    const Result<View> view = view_of(*held_out[i]);
+    const Result<View> view = view_of(held_out[i]);
     if (!view) return view.errors();
     const Image8 mask = model_mask(given, *view);
-    const Image8 shown = bytes_of(view_of_facade(facade, texels, *view));
+    const Image8 shown = bytes_of(facade.view(*view));
     add(figures.methods[0], rephotography(shown, truth, mask), share);
     if (held_out.size() > 1 && another.width == shown.width && another.height == shown.height)
       add(figures.exchanged, rephotography(shown, another, mask), share);
@@ -76,22 +131,20 @@ Status judge_held_out(const std::vector<const Photograph*>& held_out, const Laye
 }
 
 Status judge_own_viewpoints(const std::vector<Photograph>& photos, const PlaceLayers& place,
-                            const PackedFacade& facade, PlaceFigures& figures) {
-  const FacadeTexels texels(facade);
+                            DrawnFacade& facade, PlaceFigures& figures) {
   const double share = 1.0 / double(place.names.size());
   for (std::size_t i = 0; i < place.names.size(); ++i) {
     const auto photo = std::ranges::find(photos, place.names[i], &Photograph::name);
     const Result<Image8> truth = read_image8(photo->file);
     if (!truth) return truth.errors();
     const Image8 mask = model_mask(place.model, place.views[i]);
-    const Rephotography judged =
-        rephotography(bytes_of(view_of_facade(facade, texels, place.views[i])), *truth, mask);
+    const Rephotography judged = rephotography(bytes_of(facade.view(place.views[i])), *truth, mask);
     figures.own_viewpoint_psnr_db += share * judged.psnr_db;
     figures.own_viewpoint_covered_percent += share * judged.covered_percent;
     View aside = place.views[i];  // the control: where the photograph does not count as its own viewpoint
     aside.centre = glm::mix(aside.centre, place.views[(i + 1) % place.views.size()].centre, 0.05);
     figures.aside_viewpoint_psnr_db +=
-        share * rephotography(bytes_of(view_of_facade(facade, texels, aside)), *truth, mask).psnr_db;
+        share * rephotography(bytes_of(facade.view(aside)), *truth, mask).psnr_db;
   }
   return Done{};
 }
@@ -108,30 +161,59 @@ View random_view(const PlaceLayers& place, Random& random) {
   return view;
 }
 
-void judge_random_views(const PlaceLayers& place, const PackedFacade& facade, int count,
+/// The lists without what is not of one photograph.
+std::vector<glm::uvec2> lists_of_one_photo(const PackedFacade& facade, std::uint32_t photo) {
+  std::vector<glm::uvec2> lists = facade.lists;
+  for (glm::uvec2& list : lists) {
+    const auto first = facade.candidates.begin() + std::ptrdiff_t(list.x);
+    const auto found = std::find_if(first, first + std::ptrdiff_t(list.y),
+                                    [&](std::uint32_t layer) { return facade.layers[layer].photo == photo; });
+    const auto at = std::uint32_t(found - first);
+    list = {list.x + std::min(at, list.y), at < list.y ? 1u : 0u};
+  }
+  return lists;
+}
+
+std::size_t differing_pixels(const ItemBuffer& seen, const ImageF& a, const ImageF& b) {
+  std::size_t differing = 0;
+  for (std::size_t p = 0; p < seen.triangles.size(); ++p)
+    differing +=
+        seen.triangles[p] != no_triangle_seen &&
+        !std::equal(a.pixels.begin() + std::ptrdiff_t(4 * p), a.pixels.begin() + std::ptrdiff_t(4 * p + 3),
+                    b.pixels.begin() + std::ptrdiff_t(4 * p));
+  return differing;
+}
+
+void judge_random_views(const PlaceLayers& place, const PackedFacade& packed, DrawnFacade& facade, int count,
                         PlaceFigures& figures) {
-  const FacadeTexels texels(facade);
-  const LayerModel model = model_of(facade);
-  PackedFacade without = facade;  // without candidates only the fallback is left
+  const LayerModel model = model_of(packed);
+  std::vector<glm::uvec2> none = packed.lists;  // without candidates only the fallback is left
+  for (glm::uvec2& list : none) list.y = 0;
+  const std::vector<glm::uvec2> one = lists_of_one_photo(packed, 0);
   Random random(1);
-  std::size_t of_model = 0, filled = 0, differing = 0;
-  for (glm::uvec2& list : without.lists) list.y = 0;
+  std::size_t of_model = 0, coloured = 0, filled = 0, filled_by_one = 0;
   for (int i = 0; i < count; ++i) {
     const View view = random_view(place, random);
     const ItemBuffer seen = item_buffer(model, view);
-    const ImageF picture = view_of_facade(facade, texels, view, seen),
-                 fallback = view_of_facade(without, texels, view, seen);
+    const ImageF picture = facade.view(view, seen), fallback = facade.view_of(none, view, seen);
     for (std::size_t p = 0; p < seen.triangles.size(); ++p) {
       if (seen.triangles[p] == no_triangle_seen) continue;
-      ++of_model, filled += picture.pixels[4 * p + 3] > 0.0f;
-      differing += !std::equal(picture.pixels.begin() + std::ptrdiff_t(4 * p),
-                               picture.pixels.begin() + std::ptrdiff_t(4 * p + 3),
-                               fallback.pixels.begin() + std::ptrdiff_t(4 * p));
+      ++of_model, coloured += picture.pixels[4 * p + 3] > 0.0f;
     }
+    filled += differing_pixels(seen, picture, fallback);
+    filled_by_one += differing_pixels(seen, facade.view_of(one, view, seen), fallback);
   }
   if (of_model == 0) return;
-  figures.coloured_percent = 100.0 * double(filled) / double(of_model);
-  figures.filled_percent = 100.0 * double(differing) / double(of_model);
+  figures.coloured_percent = 100.0 * double(coloured) / double(of_model);
+  figures.filled_percent = 100.0 * double(filled) / double(of_model);
+  figures.filled_one_photo_percent = 100.0 * double(filled_by_one) / double(of_model);
+}
+
+/// Bytes of its textures and tables without compression, at 4 bytes per texel.
+double uncompressed_bytes(const PackedFacade& facade) {
+  constexpr double texel_bytes_of_block = 4.0 * 16.0;
+  return double(facade.texture_bytes()) +
+         double(facade.blocks.size()) * (texel_bytes_of_block - double(bc7_block_bytes));
 }
 
 /// One value of one pixel that has some alpha, changed.
@@ -144,18 +226,18 @@ void change_pixel(LayerPixels& pixels) {
       }
 }
 
-/// Pixels of layers that differ once they were written as a layered picture and read again; `is_changed`: one
-/// pixel was changed before, as a control.
-Result<std::size_t> roundtrip_differences(const PlaceLayers& place, bool is_changed) {
+/// Pixels of a photograph's layers that differ once they were written as a layered picture and read again;
+/// `is_changed`: one pixel was changed before, as a control.
+Result<std::size_t> roundtrip_differences(const PlaceLayers& place, std::size_t photo, bool is_changed) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() /
       fmt::format("parvis_layers_{}.psd", std::chrono::steady_clock::now().time_since_epoch().count());
-  Image8 picture(place.views[0].width, place.views[0].height, 4, 255);
-  const LayerPixels pixels = chosen_pixels(place.filled[0], place.originals[0]);
+  Image8 picture(place.views[photo].width, place.views[photo].height, 4, 255);
+  const LayerPixels pixels = chosen_pixels(place.filled[photo], place.originals[photo]);
   LayerPixels written_pixels = pixels;
   if (is_changed) change_pixel(written_pixels);
-  const PsdPicture psd = layered_picture(picture, place.layered[0], written_pixels,
-                                         item_buffer(place.model, place.views[0]).depths);
+  const PsdPicture psd = layered_picture(picture, place.layered[photo], written_pixels,
+                                         item_buffer(place.model, place.views[photo]).depths);
   const Status written = write_psd(file, psd);
   if (!written) return written.errors();
   const Result<PsdPicture> back = read_psd(file);
@@ -164,8 +246,8 @@ Result<std::size_t> roundtrip_differences(const PlaceLayers& place, bool is_chan
   if (!back) return back.errors();
   LayerPixels blank;
   for (const Image8& layer : pixels) blank.emplace_back(layer.width, layer.height, 4);
-  const Result<ReadLayers> read =
-      read_layers(*back, place.layered[0], blank, place.views[0].width, place.views[0].height, file.string());
+  const Result<ReadLayers> read = read_layers(*back, place.layered[photo], blank, place.views[photo].width,
+                                              place.views[photo].height, file.string());
   if (!read) return read.errors();
   std::size_t differing = 0;
   for (std::size_t l = 0; l < pixels.size(); ++l)
@@ -176,58 +258,70 @@ Result<std::size_t> roundtrip_differences(const PlaceLayers& place, bool is_chan
   return differing;
 }
 
+Status judge_roundtrips(const PlaceLayers& place, PlaceFigures& figures) {
+  for (std::size_t i = 0; i < place.names.size(); ++i) {
+    const Result<std::size_t> differing = roundtrip_differences(place, i, false);
+    if (!differing) return differing.errors();
+    figures.psd_roundtrip_differing_px += *differing;
+  }
+  const Result<std::size_t> changed = roundtrip_differences(place, 0, true);
+  if (!changed) return changed.errors();
+  figures.psd_changed_px = *changed;
+  return Done{};
+}
+
 }  // namespace
+
+Result<JudgedPlace> judged_place(const std::vector<Photograph>& photos, const std::vector<NamedMesh>& meshes,
+                                 const std::vector<std::string>& held_out, bool trims_scans) {
+  JudgedPlace judged;
+  for (const Photograph& photo : photos)
+    (std::ranges::count(held_out, photo.name) > 0 ? judged.judges : judged.used).push_back(photo);
+  if (judged.judges.size() != held_out.size() || judged.judges.empty())
+    return error("of {} photographs to hold out only {} are there", held_out.size(), judged.judges.size());
+  judged.meshes = meshes;
+  if (!trims_scans) return judged;
+  Result<TrimmedScans> trimmed = trimmed_scans(meshes, judged.used);
+  if (!trimmed) return trimmed.errors();
+  judged.meshes = std::move(trimmed->meshes);
+  return judged;
+}
 
 Result<PlaceFigures> measured_place(const std::vector<Photograph>& photos,
                                     const std::vector<NamedMesh>& meshes,
                                     const std::vector<std::string>& held_out, const MeasureOptions& options) {
-  std::vector<Photograph> used;
-  std::vector<const Photograph*> judges;
-  for (const Photograph& photo : photos)
-    if (std::ranges::count(held_out, photo.name) > 0)
-      judges.push_back(&photo);
-    else
-      used.push_back(photo);
-  if (judges.size() != held_out.size() || judges.empty())
-    return error("of {} photographs to hold out only {} are there", held_out.size(), judges.size());
-
-  PlaceFigures figures;
+  const Result<JudgedPlace> judged = judged_place(photos, meshes, held_out, options.trims_scans);
+  if (!judged) return judged.errors();
   const Result<LayerModelResult> given = layer_model(meshes);
   if (!given) return given.errors();
-  std::vector<NamedMesh> of_place = meshes;
-  if (options.trims_scans) {
-    Result<TrimmedScans> trimmed = trimmed_scans(meshes, used);
-    if (!trimmed) return trimmed.errors();
-    of_place = std::move(trimmed->meshes);
-  }
+  PlaceFigures figures;
   const auto begin = std::chrono::steady_clock::now();
-  const Result<PlaceLayers> place = place_layers(used, of_place);
+  const Result<PlaceLayers> place = place_layers(judged->used, judged->meshes);
   if (!place) return place.errors();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   figures.layers_s_per_photo = took.count() / double(place->names.size());
   figures.warnings = place->warnings;
   figures.facade = std::make_shared<const PackedFacade>(packed_facade(*place));
   const PackedFacade& facade = *figures.facade;
-  figures.texture_share_percent = 100.0 * double(facade.texture_bytes()) / double(facade.photograph_bytes());
+  const double photograph_bytes = double(facade.photograph_bytes()),
+               uncompressed = uncompressed_bytes(facade);
+  figures.texture_share_percent = 100.0 * double(facade.texture_bytes()) / photograph_bytes;
+  figures.uncompressed_share_percent = 100.0 * uncompressed / photograph_bytes;
 
-  std::vector<PreparedPhoto> prepared;
-  for (const Photograph& photo : used)
-    if (Result<PreparedPhoto> one = prepared_photo(photo, place->model); one)
-      prepared.push_back(*std::move(one));
+  const std::vector<PreparedPhoto> prepared = prepared_as_layers(judged->used, *place);
   const double extracted = double(std::max<std::size_t>(extracted_texture_bytes(place->model, prepared), 1));
   figures.texture_over_extracted = double(facade.texture_bytes()) / extracted;
-  figures.extracted_share_percent = 100.0 * extracted / double(facade.photograph_bytes());
-  if (Status status =
-          judge_held_out(judges, given->model, *place, facade, prepared, options.with_baselines, figures);
+  figures.uncompressed_over_extracted = uncompressed / extracted;
+  figures.extracted_share_percent = 100.0 * extracted / photograph_bytes;
+  DrawnFacade drawn(facade);
+  if (Status status = judge_held_out(judged->judges, given->model, *place, drawn, prepared,
+                                     options.with_baselines, figures);
       !status)
     return status.errors();
-  if (Status status = judge_own_viewpoints(used, *place, facade, figures); !status) return status.errors();
-  judge_random_views(*place, facade, options.random_views, figures);
-  const Result<std::size_t> differing = roundtrip_differences(*place, false),
-                            changed = roundtrip_differences(*place, true);
-  if (!differing) return differing.errors();
-  if (!changed) return changed.errors();
-  figures.psd_roundtrip_differing_px = *differing, figures.psd_changed_px = *changed;
+  if (Status status = judge_own_viewpoints(judged->used, *place, drawn, figures); !status)
+    return status.errors();
+  judge_random_views(*place, facade, drawn, options.random_views, figures);
+  if (Status status = judge_roundtrips(*place, figures); !status) return status.errors();
   return figures;
 }
 

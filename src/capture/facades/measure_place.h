@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "capture/facades/packed_facade.h"
+#include "capture/photographs/photograph.h"
 
 namespace parvis::facades {
 
@@ -23,16 +24,19 @@ struct PlaceFigures {
                             ///< name: there is one alone)
   double filled_percent =
       0.0;  ///< of the model's pixels in random views, those that a photograph's tile colours
+  double filled_one_photo_percent = 0.0;  ///< a control: the same where each triangle has one photograph
+                                          ///< alone to be looked up in, the first of all
   double coloured_percent = 0.0;  ///< of the same, those that have a colour at all: the fallback counts, too
-  double layers_s_per_photo = 0.0;     ///< wall clock, all stages but packing
-  double texture_share_percent = 0.0;  ///< of the photographs' RGBA
-  double texture_over_extracted = 0.0;
+  double layers_s_per_photo = 0.0;          ///< wall clock, all stages but packing
+  double texture_share_percent = 0.0;       ///< of the photographs' RGBA
+  double uncompressed_share_percent = 0.0;  ///< a control: of the same without compression
+  double texture_over_extracted = 0.0, uncompressed_over_extracted = 0.0;  ///< the latter a control
   double extracted_share_percent = 0.0;  ///< of the extracted texture over the photographs' RGBA
   double own_viewpoint_psnr_db = 0.0;    ///< mean over the photographs, pixels that show the model
   double own_viewpoint_covered_percent = 0.0;
   double aside_viewpoint_psnr_db = 0.0;  ///< a control: the same from 5 % of the way to the next photograph
-  std::size_t psd_roundtrip_differing_px = 0;
-  std::size_t psd_changed_px = 0;              ///< a control: one pixel was changed before it was written
+  std::size_t psd_roundtrip_differing_px = 0;  ///< of the layers of all photographs
+  std::size_t psd_changed_px = 0;  ///< a control: one pixel of the first was changed before it was written
   std::shared_ptr<const PackedFacade> facade;  ///< what was judged
   Errors warnings;
 };
@@ -44,8 +48,18 @@ struct MeasureOptions {
   bool trims_scans = false;  ///< before layers are made, by the photographs that are not held out
 };
 
-/// Makes the place without the photographs named in `held_out`, and judges it by them. Fails where one of
-/// them is not there, or as place_layers does.
+/// A place as it is measured: the photographs that it is made of, those that judge it, and its model.
+struct JudgedPlace {
+  std::vector<photographs::Photograph> used, judges;
+  std::vector<NamedMesh> meshes;  ///< trimmed where that was asked for
+};
+/// Divides the photographs. Fails where one of `held_out` is not there, or a scan cannot be trimmed.
+Result<JudgedPlace> judged_place(const std::vector<photographs::Photograph>& photos,
+                                 const std::vector<NamedMesh>& meshes,
+                                 const std::vector<std::string>& held_out, bool trims_scans);
+
+/// Makes the place without the photographs named in `held_out`, and judges it by them, as it is drawn: with
+/// the photographs that are chosen for each view. Fails as judged_place and place_layers do.
 Result<PlaceFigures> measured_place(const std::vector<photographs::Photograph>& photos,
                                     const std::vector<NamedMesh>& meshes,
                                     const std::vector<std::string>& held_out,

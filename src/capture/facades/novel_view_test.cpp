@@ -163,6 +163,30 @@ TEST(Balance, APasserByIsFoundByColourAndTheWallIsNot) {
   EXPECT_GT(largest_error(model, view, novel_view(model, view, photos, trusting)), 1.5f * rejected);
 }
 
+/// Lowest trust around a place of photograph 1 in which a square of so many pixels is a little brighter.
+float trust_with_spot(const LayerModel& model, int side) {
+  constexpr int x = 98, y = 44;      // in the middle of the near wall
+  constexpr float brighter = 0.12f;  // of sRGB: seen by a block in the middle of the spot alone
+  std::vector<PreparedPhoto> photos = photos_of(model);
+  for (int v = y - side / 2; v <= y + side / 2; ++v)
+    for (int u = x - side / 2; u <= x + side / 2; ++u)
+      for (int c = 0; c < 3; ++c) {
+        float& value = photos[1].colours.at(u, v)[c];
+        value = linear_from_srgb(srgb_from_linear(value) + brighter);
+      }
+  find_occluders(photos);
+  float lowest = 1.0f;
+  for (int v = y - 2; v <= y + 2; ++v)
+    for (int u = x - 2; u <= x + 2; ++u) lowest = std::min(lowest, *photos[1].trust.at(u, v));
+  return lowest;
+}
+
+TEST(Balance, ABlockAloneIsNoOccluder) {
+  const LayerModel model = model_of(street());
+  EXPECT_GT(trust_with_spot(model, 5), 0.8f) << "a glint in a pane";
+  EXPECT_LT(trust_with_spot(model, 15), 0.5f) << "the control: something is there";
+}
+
 TEST(Rephotography, SaysWhatWasChanged) {
   Image8 photograph(64, 64, 4, 255), rendered = photograph;
   for (int y = 0; y < 64; ++y)

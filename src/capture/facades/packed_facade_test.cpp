@@ -78,6 +78,9 @@ TEST(MeasurePlace, EveryFigureIsThere) {
   }
   EXPECT_EQ(figures->coloured_percent, 100.0);
   EXPECT_GT(figures->filled_percent, 90.0);
+  EXPECT_LT(figures->filled_one_photo_percent, figures->filled_percent - 1.0) << "the control";
+  EXPECT_GT(figures->uncompressed_share_percent, figures->texture_share_percent) << "the control";
+  EXPECT_GT(figures->uncompressed_over_extracted, figures->texture_over_extracted) << "the control";
   EXPECT_EQ(figures->psd_changed_px, 1u) << "the control: one pixel was changed";
   EXPECT_LT(figures->aside_viewpoint_psnr_db, figures->own_viewpoint_psnr_db - 3.0) << "the control";
   EXPECT_GT(figures->own_viewpoint_covered_percent, 99.0);

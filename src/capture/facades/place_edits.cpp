@@ -7,7 +7,9 @@
 #include "base/path_inside.h"
 #include "base/progress.h"
 #include "capture/facades/coarse_model_file.h"
+#include "capture/facades/kept_layers.h"
 #include "capture/facades/place_folder.h"
+#include "capture/facades/place_recipe.h"
 #include "capture/photographs/colmap_set.h"
 #include "capture/photographs/picture.h"
 #include "formats/gltf/gltf_reader.h"
@@ -196,7 +198,8 @@ Result<PlaceLayers> make_place(const PlaceSource& source, const PlaceSettings& s
   if (const Status status = check_files(source); !status) return status.errors();
   Errors notes = source.notes;
   add(notes, collect_edits(source.folder));
-  Result<PlaceLayers> place = place_layers(source.photographs, source.meshes, settings);
+  const LayerKeeper keeper(source.folder, layers_key(source, settings));
+  Result<PlaceLayers> place = place_layers(source.photographs, source.meshes, settings, &keeper);
   if (!place) return place;
   add(place->warnings, notes);
   const Result<std::vector<FillingChoice>> choices = read_choices(source.folder);

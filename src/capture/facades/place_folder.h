@@ -5,6 +5,7 @@
 //   layers/NAME.psd     layered pictures, for an image editor
 //   layers/written/     as they were written, with their model and cameras: edits are what differs
 //   layers/edits/       what an artist painted, apart from the layers
+//   layers/kept/        what is finished of the layers (kept_layers.h)
 //   filling.txt         proposals that were accepted or refused
 //   place.facade        packed layers; place.xp: a scene that shows them
 //   packed.txt          what they were packed from, so that it is not done twice

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/colour.h"
+#include "capture/facades/kept_layers.h"
 #include "capture/facades/moved_shadows.h"
 
 namespace parvis::facades {
@@ -35,10 +36,41 @@ void flatten_shadows(std::vector<PreparedPhoto>& prepared, PlaceLayers& place) {
   }
 }
 
+void note(const Status& status, Errors& warnings) {
+  if (!status) warnings.insert(warnings.end(), status.errors().begin(), status.errors().end());
+}
+
+/// Image layers and the photographs' own pixels in them.
+void add_image_layers(std::span<const PreparedPhoto> prepared, PlaceLayers& place, Progress& progress) {
+  for (std::size_t i = 0; i < prepared.size(); ++i) {
+    const Errors& warnings = place.visibility[i].warnings;
+    place.warnings.insert(place.warnings.end(), warnings.begin(), warnings.end());
+    place.layered.push_back(image_layers(place.model, place.views[i], place.visibility[i]));
+    place.originals.push_back(original_pixels(srgb_of(prepared[i].colours), place.layered[i]));
+    progress.advance();
+  }
+}
+
+/// Fills the layers of each photograph, unless that is kept.
+void fill_layers(std::span<const PreparedPhoto> prepared, bool fills, const LayerKeeper* keeper,
+                 PlaceLayers& place) {
+  Progress progress("filling layers", prepared.size());
+  for (std::size_t i = 0; i < prepared.size(); ++i) {
+    std::optional<Filled> kept = keeper ? keeper->read_filled(place, i, fills) : std::nullopt;
+    const bool is_kept = kept.has_value();
+    const FillSettings fill{fills, fills, 1};
+    place.filled.push_back(is_kept ? *std::move(kept)
+                                   : filled_layers(place.layers(i), prepared, i, place.originals[i], fill));
+    if (keeper && !is_kept) note(keeper->keep_filled(place, i, fills), place.warnings);
+    progress.advance();
+  }
+}
+
 }  // namespace
 
 Result<PlaceLayers> place_layers(const std::vector<photographs::Photograph>& photos,
-                                 const std::vector<NamedMesh>& meshes, const PlaceSettings& settings) {
+                                 const std::vector<NamedMesh>& meshes, const PlaceSettings& settings,
+                                 const LayerKeeper* keeper) {
   Result<LayerModelResult> model = layer_model(meshes);
   if (!model) return model.errors();
   PlaceLayers place;
@@ -62,28 +94,23 @@ Result<PlaceLayers> place_layers(const std::vector<photographs::Photograph>& pho
     return place.warnings;
   }
 
-  place.visibility = visibility_layers(place.model, place.views, place.names);
-  for (std::size_t i = 0; i < prepared.size(); ++i) {
-    const Errors& warnings = place.visibility[i].warnings;
-    place.warnings.insert(place.warnings.end(), warnings.begin(), warnings.end());
-    place.layered.push_back(image_layers(place.model, place.views[i], place.visibility[i]));
-    place.originals.push_back(original_pixels(srgb_of(prepared[i].colours), place.layered[i]));
-    progress->advance();
-  }
+  const std::optional<std::vector<ImageF>> kept_trust = keeper ? keeper->read_found(place) : std::nullopt;
+  if (!kept_trust) place.visibility = visibility_layers(place.model, place.views, place.names);
+  add_image_layers(prepared, place, *progress);
   progress.reset();  // the next steps have bars of their own
 
-  place.balances = settings.balances_colours ? balances(prepared) : std::vector<Balance>(prepared.size());
+  if (!kept_trust)
+    place.balances = settings.balances_colours ? balances(prepared) : std::vector<Balance>(prepared.size());
   for (std::size_t i = 0; i < prepared.size(); ++i) apply(place.balances[i], prepared[i]);
   if (settings.flattens_shadows && settings.balances_colours) flatten_shadows(prepared, place);
-  if (settings.finds_occluders) find_occluders(prepared);
+  if (kept_trust)
+    for (std::size_t i = 0; i < prepared.size(); ++i) prepared[i].trust = (*kept_trust)[i];
+  else if (settings.finds_occluders)
+    find_occluders(prepared);
+  if (keeper && !kept_trust) note(keeper->keep_found(place, prepared), place.warnings);
   for (std::size_t i = 0; i < prepared.size(); ++i)
     if (!prepared[i].trust.empty()) distrust(prepared[i].trust, place.layered[i]);
-  progress.emplace("filling layers", prepared.size());
-  for (std::size_t i = 0; i < prepared.size(); ++i) {
-    const FillSettings fill{settings.fills, settings.fills, 1};
-    place.filled.push_back(filled_layers(place.layers(i), prepared, i, place.originals[i], fill));
-    progress->advance();
-  }
+  fill_layers(prepared, settings.fills, keeper, place);
   return place;
 }
 

@@ -28,6 +28,8 @@ struct PlaceLayers {
   }
 };
 
+class LayerKeeper;
+
 /// Which optional stages run.
 struct PlaceSettings {
   bool balances_colours = true, finds_occluders = true, fills = true;
@@ -35,9 +37,11 @@ struct PlaceSettings {
 };
 
 /// Makes them. Photographs without pixels, of another size than their cameras, or with lens distortion are
-/// left out, with a warning each. Fails where none is left or the model is invalid.
+/// left out, with a warning each. Fails where none is left or the model is invalid. A `keeper` gives what is
+/// finished already, and keeps what is made; where it cannot, a warning says so.
 Result<PlaceLayers> place_layers(const std::vector<photographs::Photograph>& photos,
-                                 const std::vector<NamedMesh>& meshes, const PlaceSettings& settings = {});
+                                 const std::vector<NamedMesh>& meshes, const PlaceSettings& settings = {},
+                                 const LayerKeeper* keeper = nullptr);
 
 /// The photographs as they are displayed, with the proposals that were not refused.
 std::vector<LayeredPhoto> displayed(const PlaceLayers& place);

@@ -10,7 +10,8 @@ namespace parvis::facades {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int packing_version = 1;  ///< counts when the same sources are packed in another way
+constexpr int packing_version = 2;  ///< counts when the same sources are packed in another way
+constexpr int layers_version = 1;   ///< counts when layers are found or filled in another way
 
 fs::path recipe_file(const fs::path& folder) { return folder / "packed.txt"; }
 
@@ -23,17 +24,24 @@ std::string state_of(const fs::path& file) {
   return fmt::format("{} {} {}\n", file.filename().string(), bytes, time.time_since_epoch().count());
 }
 
-std::string recipe_of(const PlaceSource& source, const PlaceSettings& settings) {
+/// Of the model and the cameras.
+ContentHash geometry_of(const PlaceSource& source) {
   ContentHash hash;
   for (const NamedMesh& named : source.meshes)
     hash.add_text(named.name), hash.add(named.mesh.positions), hash.add(named.mesh.indices);
-  std::string text = fmt::format("packing {}\n", packing_version);
-  if (settings.flattens_shadows) text += "shadows flattened\n";
   for (const photographs::Photograph& photo : source.photographs) {
     hash.add_text(photo.name), hash.add(photo.world_from_camera), hash.add(photo.gain);
     hash.add(int(photo.lens.model)), hash.add(photo.lens.parameters);
-    text += state_of(photo.file) + state_of(photo.mask);
   }
+  return hash;
+}
+
+std::string recipe_of(const PlaceSource& source, const PlaceSettings& settings) {
+  ContentHash hash = geometry_of(source);
+  std::string text = fmt::format("packing {}\n", packing_version);
+  if (settings.flattens_shadows) text += "shadows flattened\n";
+  for (const photographs::Photograph& photo : source.photographs)
+    text += state_of(photo.file) + state_of(photo.mask);
   const Result<std::string> choices = read_file(source.folder / "filling.txt", 1 << 24);
   if (choices) hash.add_text(*choices);
   std::vector<fs::path> pictures;
@@ -58,6 +66,19 @@ bool is_packed(const PlaceSource& source, const PlaceSettings& settings) {
     return false;
   const Result<std::string> known = read_file(recipe_file(source.folder), 1 << 24);
   return known && *known == packed_recipe_of(source, settings);
+}
+
+std::uint64_t layers_key(const PlaceSource& source, const PlaceSettings& settings) {
+  ContentHash hash = geometry_of(source);
+  hash.add(layers_version);
+  for (const bool setting : {settings.balances_colours, settings.finds_occluders, settings.flattens_shadows})
+    hash.add(int(setting));
+  for (const photographs::Photograph& photo : source.photographs)
+    for (const fs::path& file : {photo.file, photo.mask}) {
+      const Result<std::string> bytes = file.empty() ? std::string() : read_file(file);
+      hash.add_text(bytes ? *bytes : "cannot be read");
+    }
+  return hash.value();
 }
 
 Status remember_packed(const PlaceSource& source, const PlaceSettings& settings) {

@@ -9,6 +9,10 @@ namespace parvis::facades {
 /// photographs, masks, decisions about proposals, layered pictures (an artist's edits), and settings.
 bool is_packed(const PlaceSource& source, const PlaceSettings& settings);
 
+/// A hash of all that the place's layers are made of, edits and decisions aside: model, cameras, the content
+/// of photographs and masks, and settings; whether they are filled with proposals does not count.
+std::uint64_t layers_key(const PlaceSource& source, const PlaceSettings& settings);
+
 /// Keeps what the packed place was made of in the folder's packed.txt.
 Status remember_packed(const PlaceSource& source, const PlaceSettings& settings);
 
