@@ -1,11 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
-#include "base/test_folder.h"
 #include "graphics/bounced_light/bounced_over.h"
-#include "graphics/bounced_light/transfer_cache.h"
+#include "graphics/bounced_light/test_street.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/lamps/lamp_light.h"
 #include "graphics/light/sun_and_sky.h"
@@ -15,28 +13,11 @@
 #include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
 #include "scene/data/lamp.h"
-#include "scene/data/test_scene.h"
 
 namespace parvis::bounced_light {
 namespace {
 
 using glm::vec3;
-
-/// A narrow street whose eastern wall is in the sun, the western one, red, in its own shadow.
-scene::Scene street() {
-  scene::Scene scene;
-  add(scene, scene::model_of(scene::ground(40), scene::matt(vec3(0.4f))));
-  add(scene, scene::model_of(scene::box({-14, -30, 0}, {-6, 30, 12}), scene::matt(vec3(0.7f, 0.3f, 0.2f))));
-  add(scene, scene::model_of(scene::box({6, -30, 0}, {14, 30, 12}), scene::matt(vec3(0.7f))));
-  scene.sun.direction_to_sun = glm::normalize(vec3(-0.5f, 0.1f, 0.9f));
-  scene.sun.irradiance = vec3(9.0f, 8.5f, 7.5f);
-  scene.data<scene::BouncedSettings>() = {true, 3.0f, 128};
-  return scene;
-}
-
-shading::SkyLight sky_of(const scene::Scene& scene) {
-  return shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading);
-}
 
 vec3 irradiance(const shading::BouncedLight& light, vec3 position, vec3 geometric_normal, vec3 normal) {
   return bounced_irradiance(light.cell(position, geometric_normal), normal);
@@ -191,61 +172,6 @@ TEST(Transfer, PlacesInsideOfThingsAreNone) {
   const scene::Scene empty;
   const Transfer nothing(empty, reference::RayScene(empty), {true, 3.0f, 64});
   EXPECT_TRUE(nothing.light(scene.sun, sky_of(scene)).empty());
-}
-
-/// A street whose script lies in a folder.
-class KeptTransfer : public testing::Test {
- protected:
-  KeptTransfer() : scene_(street()) {
-    scene_.file = folder_.path() / "street.xp";
-    scene_.data<scene::BouncedSettings>() = {true, 6.0f, 32};
-  }
-  std::vector<glm::vec4> lobes(const Transfer& transfer) const {
-    return transfer.light(scene_.sun, sky_of(scene_)).lobes;
-  }
-
-  TestFolder folder_;
-  scene::Scene scene_;
-};
-
-TEST_F(KeptTransfer, IsReadAsItWasTracedAtEveryHour) {
-  EXPECT_FALSE(TransferCache(scene_).read());
-  const Transfer traced = trace_transfer(scene_);
-  ASSERT_TRUE(TransferCache(scene_).keep(traced));
-  scene_.sun.irradiance *= 0.5f, scene_.sky.intensity *= 3.0f;
-  const std::optional<Transfer> kept = TransferCache(scene_).read();
-  ASSERT_TRUE(kept);
-  EXPECT_EQ(lobes(*kept), lobes(traced));
-  EXPECT_EQ(kept->to_bytes(), traced.to_bytes());
-}
-
-TEST_F(KeptTransfer, OfAnotherSceneOrDamagedIsNotUsed) {
-  ASSERT_TRUE(TransferCache(scene_).keep(trace_transfer(scene_)));
-  const std::filesystem::path file = TransferCache(scene_).file();
-  scene_.objects[1].world_from_model[3].x += 1.0f;
-  EXPECT_FALSE(TransferCache(scene_).read());
-  std::filesystem::copy(file, TransferCache(scene_).file());
-  testing::internal::CaptureStderr();
-  EXPECT_FALSE(TransferCache(scene_).read());
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("is of another scene"), std::string::npos);
-  std::filesystem::resize_file(TransferCache(scene_).file(), 100);
-  testing::internal::CaptureStderr();
-  EXPECT_FALSE(TransferCache(scene_).read());
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("traced again"), std::string::npos);
-}
-
-TEST_F(KeptTransfer, BytesWhoseIndicesLieAreNone) {
-  const std::string right = trace_transfer(scene_).to_bytes();
-  ASSERT_TRUE(Transfer::from_bytes(right));
-  constexpr std::size_t lists = sizeof(shading::BouncedGrid) + sizeof(glm::ivec3) + sizeof(int);
-  for (const std::size_t at : {sizeof(shading::BouncedGrid), lists - sizeof(int), lists + 4}) {
-    std::string wrong = right;
-    wrong[at + 2] = '\x7f';  // 8 million cells along, rays, or the number of a place
-    EXPECT_FALSE(Transfer::from_bytes(wrong)) << at;
-  }
-  EXPECT_FALSE(Transfer::from_bytes(right.substr(0, right.size() - 1)));
-  EXPECT_FALSE(Transfer::from_bytes(right + "x"));
-  EXPECT_FALSE(Transfer::from_bytes(""));
 }
 
 class BouncedPicture : public gl::ContextTest {};

@@ -1,7 +1,9 @@
-// The node bouncedLight: its ranges, and what is wrong with others.
+// The node bouncedLight: its ranges, what is wrong with others, and that nothing changes it while a scene
+// runs.
 #include <gtest/gtest.h>
 
 #include "graphics/bounced_light/room.h"
+#include "scene/action/room.h"
 #include "scene/data/bounced_settings.h"
 #include "scene/script/room.h"
 #include "scene/script/test_script.h"
@@ -40,6 +42,24 @@ TEST_F(BouncedNode, SaysWhatIsWrong) {
                                      {"bouncedLight(bounces=2)\n", "bounces"},
                                      {"bouncedLight()\nbouncedLight()\n", "bouncedLight"}})
     EXPECT_TRUE(holds(errors_of(script), word)) << script;
+}
+
+/// Its places are laid out once: what would change them is refused when the scene is loaded.
+TEST_F(BouncedNode, IsTheSameInAllScenariosAndTakesNoMessages) {
+  action::furnish(house_);
+  for (const auto& [script, words] :
+       {std::pair{
+            "bouncedLight()\nscenario(name=\"fine\") { override(of=\"%bouncedLight\", spacing=2) }\n",
+            "bouncedLight \"%bouncedLight\" is laid out once: its \"spacing\" is the same in all scenarios"},
+        {"scenario(name=\"fine\") { bouncedLight() }\n", "bouncedLight does not stand in scenario"},
+        {"scenario(name=\"fine\") { group() { bouncedLight() } }\n",
+         "a bouncedLight is laid out once, for all scenarios; it does not stand in \"fine\""},
+        {"bouncedLight()\ntimer(period_s=10, onTime=\"5, %bouncedLight, spacing 2\")\n",
+         "bouncedLight takes no messages"},
+        {"timer(period_s=10, onTime=\"5, %bouncedLight, spacing 2\")\n", "%bouncedLight"}}) {
+    const std::string errors = errors_of(script);
+    EXPECT_TRUE(holds(errors, words)) << script << errors;
+  }
 }
 
 }  // namespace

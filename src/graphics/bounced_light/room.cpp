@@ -30,7 +30,7 @@ scene::NodeSchema bounced_light_schema() {
                          .between(0.5, 50)
                          .by_default("8"),
                      integer("rays", "from each place, once: when the scene is baked, else when it is loaded")
-                         .between(16, 1024)
+                         .between(min_rays, max_rays)
                          .by_default("64")},
       .example = "dayLight(timeOfDay=13)\nbouncedLight(spacing=6)",
       .is_unique = true,

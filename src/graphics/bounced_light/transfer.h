@@ -26,6 +26,9 @@ inline constexpr int sky_directions = 128;
 /// Evenly spread; each stands for 2 pi / sky_directions steradians.
 const std::array<glm::vec3, sky_directions>& directions_of_sky();
 
+/// What a scene may ask for: rays from each place.
+inline constexpr int min_rays = 16, max_rays = 1024;
+
 /// Some square metres of surface that face one way.
 struct Patch {
   glm::vec3 position{0.0f}, normal{0.0f, 0.0f, 1.0f};  ///< means over the patch; unit normal

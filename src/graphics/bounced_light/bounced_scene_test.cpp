@@ -1,0 +1,82 @@
+// Bounced light of a scene that runs: it follows messages and scenarios that change what it comes from.
+#include <gtest/gtest.h>
+
+#include "formats/gltf/gltf_writer.h"
+#include "formats/gltf/room.h"
+#include "formats/meshes/room.h"
+#include "graphics/bounced_light/room.h"
+#include "graphics/gl/test_context.h"
+#include "graphics/light/room.h"
+#include "graphics/render/frame_views.h"
+#include "graphics/render/light_source.h"
+#include "graphics/render/renderer.h"
+#include "scene/data/test_scene.h"
+#include "scene/script/live_scene.h"
+#include "scene/script/room.h"
+#include "scene/script/test_script.h"
+
+namespace parvis::bounced_light {
+namespace {
+
+class BouncedScene : public scene::ScriptTest<gl::ContextTest> {
+ protected:
+  BouncedScene() {
+    for (const auto furnish :
+         {script::furnish, gltf::furnish, meshes::furnish, light::furnish, bounced_light::furnish})
+      furnish(house_);
+    save("ground.glb", scene::ground(24));
+    save("west.glb", scene::box({-10, -20, 0}, {-6, 20, 9}));
+    save("east.glb", scene::box({6, -20, 0}, {10, 20, 9}));
+  }
+  void save(const std::string& name, const Mesh& mesh) const {
+    EXPECT_TRUE(
+        scene::write_gltf(folder_.path() / name, *scene::model_of(mesh, scene::matt(glm::vec3(0.5f)))));
+  }
+  std::unique_ptr<render::Renderer> renderer_of(const scene::Scene& scene) const {
+    auto renderer = render::Renderer::create(scene, {}, house_.get<render::Lights>().make);
+    EXPECT_TRUE(renderer) << to_string(renderer.errors());
+    return *std::move(renderer);
+  }
+  /// In all cells, when a frame has been drawn.
+  static std::vector<glm::vec4> light_in(render::Renderer& renderer, const scene::Scene& scene) {
+    EXPECT_TRUE(render::draw_frame(renderer, scene, {Camera{}, 16, 16}));
+    const shading::BouncedLight* const bounced = renderer.drawn_light().bounced;
+    EXPECT_NE(bounced, nullptr);
+    return bounced ? bounced->lobes : std::vector<glm::vec4>();
+  }
+};
+
+TEST_F(BouncedScene, FollowsScenariosAndMessagesAsIfItWereMadeThen) {
+  auto loaded = load(
+      "sun(azimuth_deg=250, elevation_deg=50)\nbouncedLight(spacing=4, rays=64)\nmodel(file=\"ground.glb\")\n"
+      "model(file=\"west.glb\")\nmodel(name=\"east\", file=\"east.glb\")\n"
+      "scenario(name=\"open\") { override(of=\"east\", visible=0) }\n");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  scene::Scene& scene = loaded->scene;
+  scene::LiveScene live(std::move(loaded->script));
+  ASSERT_TRUE(live.prepare_scenarios(scene));
+  const auto renderer = renderer_of(scene);
+  const auto now = [&] { return light_in(*renderer, scene); };
+  const auto made_then = [&] { return light_in(*renderer_of(scene), scene); };
+
+  const std::vector<glm::vec4> street = now();
+  ASSERT_FALSE(street.empty());
+  EXPECT_EQ(now(), street) << "nothing has changed";
+  ASSERT_TRUE(live.choose(scene, "open"));
+  EXPECT_NE(now(), street) << "the wall that the sun shone on has gone";
+  EXPECT_EQ(now(), made_then());
+  ASSERT_TRUE(live.choose(scene, scene::base_scene));
+  EXPECT_EQ(now(), street);
+
+  const scene::Node* const sun = live.find("%sun");
+  ASSERT_NE(sun, nullptr);
+  const auto message = scene::parse_message(*sun->schema, "elevation_deg 12", {});
+  ASSERT_TRUE(message);
+  ASSERT_TRUE(live.receive(*sun, *message));
+  ASSERT_TRUE(live.refresh(scene).empty());
+  EXPECT_NE(now(), street) << "the sun has gone down";
+  EXPECT_EQ(now(), made_then());
+}
+
+}  // namespace
+}  // namespace parvis::bounced_light
