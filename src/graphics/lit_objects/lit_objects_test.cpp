@@ -224,6 +224,28 @@ TEST_F(LitObjects, KeepTheirOwnShadeInTheFrameOfAMove) {
   EXPECT_LT(mean_difference(quick.behind, truth.behind), 0.2 * mean);
 }
 
+/// A budget that is too small even for what places around see: nothing hides sky and sun in the frame of a
+/// move, whatever the object had before; then rays come as the budget brings them.
+TEST_F(LitObjects, HaveSkyAndSunOfTheOpenWhereThereIsNoTimeForMore) {
+  Running scene = run(street("rays=128, budget_ms=0.01"));
+  scene.object("ball").world_from_model = glm::translate(glm::mat4(1.0f), vec3(0, 4.3f, 0));
+  scene.clock->advance(scene.scene, 0.02);
+  ASSERT_LT(scene.rays(), 64) << "there was time for rays";
+  std::vector<std::string> odd;
+  const LitObject there(scene.scene, int(scene.index("ball")), odd);
+  ASSERT_EQ(there.blocks().size(), 1u);
+  const std::vector<vec3> open = light::open_irradiance(
+      there.blocks()[0].light.vertices(), light::SkyTable(scene.scene), light::Blocked::bounces);
+  const std::vector<vec3> quick = scene.light("ball")->parts[0].front;
+  ASSERT_EQ(quick.size(), open.size());
+  for (std::size_t v = 0; v < open.size(); ++v) EXPECT_NEAR(quick[v].y, open[v].y, 1e-4f * open[v].y + 1e-6f);
+  for (int frame = 0; frame < 100 && scene.rays() < 128; ++frame) scene.clock->advance(scene.scene, 0.02);
+  EXPECT_GE(scene.rays(), 128);
+  const std::vector<vec3>& truth = scene.light("ball")->parts[0].front;
+  const double mean = mean_difference(truth, std::vector<vec3>(truth.size(), vec3(0.0f)));
+  EXPECT_GT(mean_difference(quick, truth), 0.5 * mean) << "the wall hides the sun";
+}
+
 /// A surface texture has metallic in blue, by which the factor, 1 by default in glTF, is multiplied.
 TEST_F(LitObjects, HaveTheLightThatGroundWithASurfaceTextureGivesBack) {
   const auto light_above = [&](std::uint8_t metallic) {
