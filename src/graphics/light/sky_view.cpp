@@ -53,8 +53,4 @@ glm::vec3 SkyView::radiance_xyz(glm::vec3 direction) const {
   return Lookup{texels_.data()}.sky_view_radiance(direction, to_sun_);
 }
 
-float sun_disc_share(glm::vec3 direction, glm::vec3 to_sun) {
-  return Lookup{nullptr}.sun_disc(direction, to_sun);
-}
-
 }  // namespace parvis::light

@@ -1,5 +1,5 @@
 // The clear sky as a picture of directions: sunlight scattered by the atmosphere (graphics/light/sky_view.h
-// fills the table), the glare of the haze about the sun, and the sun's disc. Colours are CIE XYZ.
+// fills the table), and the glare of the haze about the sun. Colours are CIE XYZ.
 //
 // Includers define sky_view_texel(int layer, ivec2 place): the table, 2 layers (what is scattered; haze that
 // scattered once, without its phase function) of the columns and rows of sky_view_layout.glsl.
@@ -27,12 +27,4 @@ GLSL_FUNCTION vec3 sky_view_lookup(int layer, vec3 direction, vec3 to_sun) {
 GLSL_FUNCTION vec3 sky_view_radiance(vec3 direction, vec3 to_sun) {
   float cosine = clamp(dot(direction, to_sun), -1.0f, 1.0f);
   return sky_view_lookup(0, direction, to_sun) + haze_phase(cosine) * sky_view_lookup(1, direction, to_sun);
-}
-
-// How bright the disc is there, relative to its mean, which is 1; 0 beside it. Darker toward the limb
-// (Hestroffer and Magnan 1998, at 550 nm: (1 - r^2)^(0.5 * 0.52)).
-GLSL_FUNCTION float sun_disc(vec3 direction, vec3 to_sun) {
-  vec3 chord = direction - to_sun;
-  float r2 = dot(chord, chord) / (0.004653f * 0.004653f);
-  return r2 < 1.0f ? 1.26f * pow(1.0f - r2, 0.26f) : 0.0f;
 }

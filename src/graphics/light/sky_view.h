@@ -29,7 +29,4 @@ class SkyView {
   std::vector<glm::vec4> texels_;
 };
 
-/// How bright the sun's disc is in a direction, relative to its mean; 0 beside it.
-float sun_disc_share(glm::vec3 direction, glm::vec3 to_sun);
-
 }  // namespace parvis::light

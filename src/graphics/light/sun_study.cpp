@@ -263,7 +263,6 @@ Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& opt
   for (const GroundCell& cell : study.cells) points.push_back(lifted(cell.position, {0, 0, 1}));
   for (std::size_t i = 0; i < study.surfaces.positions.size(); ++i)
     points.push_back(lifted(study.surfaces.positions[i], study.surfaces.normals[i]));
-  study.rays_from = points.size();
   points.push_back({{0.0f, 0.0f, bounds.max.z + 1.0f}, {0, 0, 1}});  // nothing stands higher
   const std::vector<float> hours = divided_hours(rays, points, options);
   study.max_hours = std::max(double(hours.back()), 1e-3);

@@ -56,8 +56,7 @@ struct SunStudy {
   std::vector<float> surface_hours;      ///< of each of their vertices
   /// Ground under surfaces that face down alone (a building inside out), which counts as built.
   double covered_m2 = 0.0;
-  bool is_chosen = false;     ///< SunStudyOptions::judged says which ground is judged
-  std::size_t rays_from = 0;  ///< points that rays start from
+  bool is_chosen = false;  ///< SunStudyOptions::judged says which ground is judged
 };
 
 /// Ground is the surface hit from above, below leaves and less than 2.5 m above the lowest surface within

@@ -35,7 +35,7 @@ class CrownCity {
   std::vector<light::LitVertex> vertices() const;
   /// Their box.
   Bounds bounds() const;
-  /// Fails where no wall stands within 5 m east or west of the middle of the crown: on a lawn all places have
+  /// Fails where no wall stands within 8 m east or west of the middle of the crown: on a lawn all places have
   /// one light.
   Status stands_beside_facade() const;
   /// What casts light and shade on the crown: all that stands still, with the crown itself or without it.
