@@ -55,9 +55,8 @@ float CrownOpenness::extinction_per_m(glm::vec3 place) const {
 
 float CrownOpenness::depth(glm::vec3 place, glm::vec3 direction, float enough) const {
   float depth = 0.0f;
-  const float steps = float(2 * cells_per_side);
-  for (float i = 0.5f; i < steps && depth < enough; ++i) {
-    const glm::vec3 at = place + i * cell_m_ * direction;
+  for (int step = 0; step < 2 * cells_per_side && depth < enough; ++step) {
+    const glm::vec3 at = place + (float(step) + 0.5f) * cell_m_ * direction;
     if (direction.z > 0.0f ? at.z > box_.max.z : at.z < box_.min.z) break;
     depth += cell_m_ * extinction_per_m(at);
   }
