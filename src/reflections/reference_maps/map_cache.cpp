@@ -1,6 +1,7 @@
 #include "reflections/reference_maps/map_cache.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "base/content_hash.h"
@@ -12,7 +13,7 @@ namespace parvis::reference_maps {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int version = 4;  // of how maps are placed and drawn: raise it when old maps no longer serve
+constexpr int version = 5;  // of how maps are placed and drawn: raise it when old maps no longer serve
 constexpr std::string_view extension = ".map";
 constexpr std::size_t name_length = 16;  // of a state's folder
 
@@ -62,6 +63,22 @@ std::optional<MapFile> MapCache::read(std::size_t number) const {
     return *std::move(map);
   fmt::print(stderr, "warning: {}; the map is rendered again\n",
              map ? fmt::format("{}: is of another scene", path.string()) : map.errors().front().message);
+  return std::nullopt;
+}
+
+std::optional<std::vector<glm::vec3>> MapCache::places() const {
+  std::error_code code;
+  std::set<std::size_t> numbers;  // in order: the same map answers each time
+  if (!folder_.empty())
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_, code)) {
+      const std::string name = entry.path().stem().string();
+      std::size_t number = 0;
+      const auto [end, failure] = std::from_chars(name.data(), name.data() + name.size(), number);
+      if (failure == std::errc() && end == name.data() + name.size() && entry.path() == file(number))
+        numbers.insert(number);
+    }
+  for (const std::size_t number : numbers)
+    if (std::optional<MapFile> map = read(number)) return std::move(map->places);
   return std::nullopt;
 }
 

@@ -22,6 +22,8 @@ class MapCache {
 
   /// A map, if it is there, whole and of this state. Unfit ones are reported on standard error.
   std::optional<MapFile> read(std::size_t number) const;
+  /// The places of all maps, as the first kept one that is fit has them; not all need be kept.
+  std::optional<std::vector<glm::vec3>> places() const;
   /// Reports on standard error that there are maps of other states of the scene, but none of this one.
   void report_other_states() const;
   /// An error, too, where the folder is a link: nothing is kept there.

@@ -133,6 +133,16 @@ TEST_F(MapCacheTest, InterruptedBakingGoesOnWithTheMapsThatAreMissing) {
   EXPECT_TRUE(fs::exists(map_file(0)) && fs::exists(map_file(2)));
 }
 
+TEST_F(MapCacheTest, AnyMapThatIsKeptKnowsThePlacesOfAll) {
+  const std::vector<glm::vec3> kept{{1, 1, 1}, {2, 2, 2}, {3, 3, 3}};
+  const MapCache cache(scene_);
+  EXPECT_FALSE(cache.places());
+  ASSERT_TRUE(cache.write({0, kept, 2, 2, {}}));
+  ASSERT_TRUE(write_file(cache.folder() / "notes.map", "mine"));
+  EXPECT_EQ(cache.places(), kept);
+  EXPECT_EQ(places_of(scene_, HeightPyramid(heights_of(scene_)), cache), kept) << "not those of the script";
+}
+
 TEST_F(MapCacheTest, DamagedMapsAreDrawnAgainAndReportedNeverShown) {
   const auto drawn = keep();
   for (std::size_t number = 0; number < 3; ++number) {

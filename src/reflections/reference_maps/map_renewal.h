@@ -26,6 +26,8 @@ class MapRenewal {
                                        glm::vec3 looked_from);
   /// The same for one map, whether it is out of date or not.
   void renew(render::Renderer& renderer, ReferenceMaps& maps, std::size_t map);
+  /// The map that was drawn last, alone and not compressed.
+  const ReferenceMaps& drawn_last() const { return fresh_; }
 
  private:
   MapRenewal(MapPainter painter, ReferenceMaps fresh)

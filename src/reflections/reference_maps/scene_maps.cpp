@@ -69,14 +69,14 @@ std::vector<glm::vec3> map_places(const scene::Scene& scene, const HeightPyramid
   const ReferenceMapPlan& plan = map_plan(scene);
   if (!plan.places.empty()) return plan.places;
   std::vector<glm::vec3> places = place_for_pictures(scene, heights, max_maps(scene)).places;
-  if (places.empty()) places.emplace_back(0.0f, 0.0f, 1.5f);
+  if (places.empty()) places.push_back(place_without_ground);
   return places;
 }
 
 std::vector<glm::vec3> places_of(const scene::Scene& scene, const HeightPyramid& heights,
                                  const MapCache& cache) {
-  const std::optional<MapFile> first = cache.read(0);
-  return first ? first->places : map_places(scene, heights);
+  std::optional<std::vector<glm::vec3>> kept = cache.places();
+  return kept ? *std::move(kept) : map_places(scene, heights);
 }
 
 Result<ReferenceMaps> drawn_map(const scene::Scene& scene, render::Renderer& renderer, MapPainter& painter,

@@ -19,6 +19,9 @@ shading::Heightfield heights_of(const scene::Scene& scene);
 /// Width of the cells that a place of so many metres gets where `wanted_m` are wanted.
 float fitting_cell_m(glm::vec2 size_m, float wanted_m);
 
+/// Of the only map of a scene in which no place offers itself.
+inline constexpr glm::vec3 place_without_ground{0.0f, 0.0f, 1.5f};
+
 /// Where the scene's reference maps are taken: where the script says, else where they show most; one place at
 /// least.
 std::vector<glm::vec3> map_places(const scene::Scene& scene, const HeightPyramid& heights);
