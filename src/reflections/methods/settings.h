@@ -23,6 +23,18 @@ struct Settings {
   void hash(ContentHash& hash) const;
 };
 
+/// What a window wants, which no script says. Pictures and films have the default, so that they can be
+/// repeated.
+struct Pace {
+  static constexpr std::string_view name = "methods.pace";
+  static constexpr scene::DataRole role = scene::DataRole::settings;
+
+  bool begins_at_once = false;  ///< a method that takes time to prepare begins with something cheaper
+
+  /// Adds all of it.
+  void hash(ContentHash& hash) const { hash.add(int(begins_at_once)); }
+};
+
 /// By content.
 bool operator==(const Settings& a, const Settings& b);
 
