@@ -40,8 +40,7 @@ class NoReflection final : public methods::Reflections {
 /// reflector's size in the image, and distant reflectors share one map.
 class RerenderedCubeMap final : public CubeMapReflections {
  public:
-  /// Reads the common settings of reflection methods.
-  /// Without a filter: for mirrors that are all smooth.
+  /// Reads the common settings of reflection methods. Without a filter: for mirrors that are all smooth.
   explicit RerenderedCubeMap(const scene::Scene& scene, std::optional<methods::LobeFilter> filter = {})
       : CubeMapReflections(std::move(filter)), settings_(methods::settings(scene)) {}
   void bind(const gl::Program& program, int object) override;
