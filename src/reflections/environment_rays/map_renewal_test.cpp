@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <set>
+#include <thread>
 
+#include "base/test_folder.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/render/test_room.h"
@@ -103,13 +106,23 @@ class MissingMapsTest : public gl::ContextTest {
     reflections_ = std::move(*make_multiple_environment_maps(scene_, *renderer_));
     EXPECT_TRUE(renderer_->set_reflection(reflections_.get()));
   }
+  /// Makes the method again: the maps of the one before are gone, and what it had to write is written.
+  void start_again() {
+    EXPECT_TRUE(renderer_->set_reflection(nullptr));
+    reflections_.reset();
+    reflections_ = std::move(*make_multiple_environment_maps(scene_, *renderer_));
+    EXPECT_TRUE(renderer_->set_reflection(reflections_.get()));
+  }
+  const MultipleEnvironmentMaps& maps() const {
+    return dynamic_cast<const MultipleEnvironmentMaps&>(*reflections_);
+  }
   /// Draws a frame with the mirror in its middle; how many maps are drawn then.
   std::size_t maps_after_next_frame() {
     const float x = scene_.objects.back().world_from_model[3].x;
     Camera camera;
     camera.world_from_camera = look_at({x - 3, 3, 1}, {x, 0, 0});
     EXPECT_TRUE(methods::draw_frame(*renderer_, scene_, reflections_.get(), {camera, 64, 48}));
-    return dynamic_cast<const MultipleEnvironmentMaps&>(*reflections_).drawn_maps();
+    return maps().drawn_maps();
   }
 
   scene::Scene scene_ = render::room_scene(32.0f);
@@ -135,6 +148,67 @@ TEST_F(MissingMapsTest, AWindowDrawsOnePerFrameAndEndsWithTheSamePicture) {
   EXPECT_EQ(maps_after_next_frame(), 2u) << "the first frame is drawn again with its first map";
   for (std::size_t drawn = 3; drawn <= wanted; ++drawn) EXPECT_EQ(maps_after_next_frame(), drawn);
   EXPECT_EQ(maps_after_next_frame(), wanted);
+  EXPECT_EQ(renderer_->read_picture(1.0f).pixels, whole.pixels);
+}
+
+TEST_F(MissingMapsTest, WhatAWindowDrewItsNextStartReads) {
+  const TestFolder folder;
+  scene_.file = folder.path() / "room.xp";
+  const MapCache cache(scene_);
+  start_again();
+  const std::size_t wanted = maps_after_next_frame();
+  const Image8 whole = renderer_->read_picture(1.0f);
+  start_again();
+  EXPECT_FALSE(cache.places()) << "a picture keeps nothing";
+  reflections_->prefer_rate();
+  for (std::size_t frame = 0; frame < wanted; ++frame) maps_after_next_frame();
+  EXPECT_EQ(maps_after_next_frame(), wanted);
+
+  start_again();
+  std::size_t kept = 0;
+  for (std::size_t map = 0; map < map_plan(scene_).places.size(); ++map) kept += cache.read(map).has_value();
+  EXPECT_EQ(kept, wanted);
+  reflections_->prefer_rate();
+  EXPECT_EQ(maps_after_next_frame(), wanted) << "reading takes no frame of its own";
+  EXPECT_EQ(renderer_->read_picture(1.0f).pixels, whole.pixels);
+}
+
+TEST_F(MissingMapsTest, MapsOfALightThatHasChangedAreNotKept) {
+  const TestFolder folder;
+  scene_.file = folder.path() / "room.xp";
+  start_again();
+  reflections_->prefer_rate();
+  const MapCache before(scene_);
+  scene_.sun.irradiance = glm::vec3(8.0f);  // before the first frame, as day light does
+  const MapCache after(scene_);
+  ASSERT_NE(before.folder(), after.folder());
+  maps_after_next_frame();
+  start_again();
+  EXPECT_FALSE(before.places());
+  EXPECT_FALSE(after.places());
+}
+
+TEST_F(MissingMapsTest, AWindowBeginsWithFewMapsAndEndsWithThePictureOfAll) {
+  map_plan(scene_).places.clear();
+  map_plan(scene_).max_maps = 6;  // to be placed in no time
+  start_again();
+  EXPECT_TRUE(maps().is_placed()) << "a picture waits";
+  const std::vector<glm::vec3> all = maps().maps().places();
+  maps_after_next_frame();
+  const Image8 whole = renderer_->read_picture(1.0f);
+
+  scene_.data<methods::Pace>().begins_at_once = true;
+  start_again();
+  EXPECT_FALSE(maps().is_placed());
+  EXPECT_GE(maps().maps().places().size(), 1u);
+  for (int frame = 0; frame < 600 && !maps().is_placed(); ++frame) {
+    maps_after_next_frame();
+    EXPECT_GE(maps().drawn_maps(), 1u) << "a map is looked into from the first frame on";
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  ASSERT_TRUE(maps().is_placed());
+  EXPECT_EQ(maps().maps().places().size(), all.size());
+  maps_after_next_frame();
   EXPECT_EQ(renderer_->read_picture(1.0f).pixels, whole.pixels);
 }
 

@@ -10,15 +10,18 @@ uvec4 maps_around(vec3 at) {
 // Position of a map; w: its layer.
 vec4 place_of(uint map) { return vec4(texelFetch(map_places, ivec2(int(map), 0), 0).xyz, float(map)); }
 
-// The two of the four maps around the reflecting point that show the hit best.
-void choose_maps(vec3 at, vec3 direction, vec3 hit, out vec4 places[2], out float weights[2]) {
+// The two of the four maps around the reflecting point that show the hit best. Returns how well one of them
+// sees it: 0 where something hides it from all.
+float choose_maps(vec3 at, vec3 direction, vec3 hit, out vec4 places[2], out float weights[2]) {
   uvec4 maps = maps_around(at);
   weights = float[2](-1.0f, -1.0f);
+  float seen = 0.0f;
   for (int k = 0; k < 4; ++k) {
     vec4 place = place_of(maps[k]);
     vec3 to_hit = hit - place.xyz;
     float distance_m = length(to_hit);
     float valid = validity(min_seen_distance(to_hit / distance_m, place.w), distance_m, height_grid.z);
+    seen = max(seen, valid);
     // The closer a map is to the ray, the less an error in the hit's distance displaces the lookup.
     vec3 away = place.xyz - at;
     float along = dot(away, direction);
@@ -35,4 +38,5 @@ void choose_maps(vec3 at, vec3 direction, vec3 hit, out vec4 places[2], out floa
       places[1] = place;
     }
   }
+  return seen;
 }

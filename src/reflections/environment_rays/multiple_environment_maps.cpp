@@ -58,9 +58,16 @@ Result<ReferenceMaps> working_set(const scene::Scene& scene, std::vector<glm::ve
 
 Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create(const scene::Scene& scene,
                                                                                  render::Renderer& renderer) {
-  const HeightPyramid heights(heights_of(scene));
+  const auto heights = std::make_shared<const HeightPyramid>(heights_of(scene));
   MapCache baked(scene);
-  std::vector<glm::vec3> places = places_of(scene, heights, baked);
+  std::unique_ptr<PlaceSearch> search;
+  std::vector<glm::vec3> places;
+  if (scene.data<methods::Pace>().begins_at_once && map_plan(scene).places.empty() && !baked.places()) {
+    search = std::make_unique<PlaceSearch>(scene, heights);
+    places = first_places(scene, *heights);
+  } else {
+    places = places_of(scene, *heights, baked);
+  }
   Result<ReferenceMaps> maps = working_set(scene, places);
   if (!maps) return maps.errors();
   Result<MapRenewal> renewal = MapRenewal::create(map_resolution(scene));
@@ -76,20 +83,22 @@ Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create
     render::assign_bindings(*program);
     programs[detail] = *std::move(program);
   }
-  return std::unique_ptr<MultipleEnvironmentMaps>(
-      new MultipleEnvironmentMaps(scene, heights, std::move(baked), std::move(places), *std::move(maps),
-                                  *std::move(renewal), *std::move(picture), std::move(programs)));
+  return std::unique_ptr<MultipleEnvironmentMaps>(new MultipleEnvironmentMaps(
+      scene, *heights, std::move(baked), std::move(places), std::move(search), *std::move(maps),
+      *std::move(renewal), *std::move(picture), std::move(programs)));
 }
 
 MultipleEnvironmentMaps::MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights,
                                                  MapCache baked, std::vector<glm::vec3> places,
-                                                 ReferenceMaps maps, MapRenewal renewal,
-                                                 methods::MirrorPicture picture, Programs programs)
+                                                 std::unique_ptr<PlaceSearch> search, ReferenceMaps maps,
+                                                 MapRenewal renewal, methods::MirrorPicture picture,
+                                                 Programs programs)
     : uses_level_of_detail_(methods::settings(scene).uses_level_of_detail),
       details_(scene.objects.size(), all_detail),
       budget_(double(methods::settings(scene).budget_ms)),
       picture_(std::move(picture)),
       programs_(std::move(programs)),
+      search_(std::move(search)),
       baked_(std::move(baked)),
       maps_(std::move(maps)),
       renewal_(std::move(renewal)),
@@ -159,19 +168,54 @@ void MultipleEnvironmentMaps::find_missing_maps(const render::Renderer& renderer
       if (std::ranges::find(wanted_, map) == wanted_.end()) wanted_.push_back(map);
 }
 
+/// Takes over the maps whose places were searched, as soon as these are found. True: it has.
+bool MultipleEnvironmentMaps::take_places(const scene::Scene& scene) {
+  if (!search_ || !search_->is_done()) return false;
+  PlacedMaps placed = std::exchange(search_, nullptr)->take();
+  Result<ReferenceMaps> maps = working_set(scene, placed.places);
+  if (!maps) {
+    fmt::print(stderr, "warning: {}; a few reference maps, evenly spread, stay\n",
+               maps.errors().front().message);
+    baked_.reset();
+    return false;
+  }
+  maps_ = *std::move(maps);
+  table_ = MapTable(std::move(placed.choice), std::move(placed.places), maps_.places().size());
+  renewal_.ask(maps_.places().size(), {});
+  wanted_.clear();
+  return true;
+}
+
+/// Has the map that was drawn last written beside the scene.
+void MultipleEnvironmentMaps::keep(const scene::Scene& scene, std::size_t map) {
+  if (!prefers_rate_ || search_ || !baked_ || baked_->folder().empty()) return;
+  if (!keeper_) {
+    // The scene may have changed before its first frame, which notes changes from there on.
+    if (MapCache(scene).folder() != baked_->folder()) {
+      baked_.reset();
+      return;
+    }
+    keeper_ = std::make_unique<MapKeeper>(*baked_);
+  }
+  const ReferenceMaps& drawn = renewal_.drawn_last();
+  keeper_->keep({0, table_.places(), std::uint32_t(map), std::uint32_t(drawn.resolution()), drawn.read(0)});
+}
+
 bool MultipleEnvironmentMaps::supply(render::Renderer& renderer, const scene::Scene& scene) {
+  if (take_places(scene)) return true;
   const bool is_first = table_.drawn_layers().empty();
   std::size_t read = 0, drawn = 0;
   for (const std::size_t map : wanted_) {
     const std::optional<std::size_t> layer = table_.give_layer(map);
     if (!layer) break;  // the frame looks into more maps than are held: others stand in
     maps_.move(*layer, table_.places()[map]);
-    if (baked_ && copy_baked(*baked_, map, table_.places(), maps_, *layer)) {
+    if (baked_ && !search_ && copy_baked(*baked_, map, table_.places(), maps_, *layer)) {
       ++read;
       continue;
     }
     renderer.begin_still_frame(scene, camera_at(table_.places()[map]));
     renewal_.renew(renderer, maps_, *layer);
+    keep(scene, map);
     ++drawn;
     if (prefers_rate_) break;
   }

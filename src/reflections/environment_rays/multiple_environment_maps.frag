@@ -46,6 +46,8 @@ struct Reflected {
   vec3 shade;        // fraction of its light that dynamic objects leave
   float body_share;  // of a dynamic object, which no map shows: 1 where the ray hits one
   vec3 body_radiance;
+  float open_sky;  // share of the sky picture: 1 where the ray reaches the sky, which something hides from
+                   // the maps
 };
 Reflected reflected;
 
@@ -62,9 +64,9 @@ float cell_height(ivec2 cell, int level) { return texelFetch(heights, cell, leve
 // The height field is solid below bridges, balconies and arches. Where the ray hits the side of a cell and
 // the best map has recorded a surface behind it, the ray continues with the next cell.
 HeightHit walk_under(HeightfieldGrid grid, vec3 at, vec3 direction, float reach, out vec4 places[2],
-                     out float weights[2]) {
+                     out float weights[2], out float seen) {
   HeightHit hit = walk_pyramid(grid, at, direction, reach);
-  choose_maps(at, direction, at + hit.distance * direction, places, weights);
+  seen = choose_maps(at, direction, at + hit.distance * direction, places, weights);
   if (detail != all_detail) return hit;
   for (int i = 0; i < max_cells_under; ++i) {
     if (hit.kind != hit_side || !is_seen_through(at + hit.distance * direction, places[0])) break;
@@ -72,7 +74,7 @@ HeightHit walk_under(HeightfieldGrid grid, vec3 at, vec3 direction, float reach,
         hit.distance + 0.01f * grid.cell_m;  // inside the cell, which the ray then leaves without a hit
     hit = walk_pyramid(grid, at + from * direction, direction, reach - from);
     hit.distance += from;
-    choose_maps(at, direction, at + hit.distance * direction, places, weights);
+    seen = choose_maps(at, direction, at + hit.distance * direction, places, weights);
   }
   return hit;
 }
@@ -88,16 +90,17 @@ void look_into_nearest_map(vec3 at, vec3 direction) {
 }
 
 // Section 4.2: the hit on the height field, or in front of it on what only the maps have recorded; and the
-// two maps that show it best.
-HeightHit hit_of_ray(vec3 at, vec3 direction, float reach, out vec4 places[2], out float weights[2]) {
+// two maps that show it best. `seen`: how well one of them does.
+HeightHit hit_of_ray(vec3 at, vec3 direction, float reach, out vec4 places[2], out float weights[2],
+                     out float seen) {
   HeightfieldGrid grid =
       HeightfieldGrid(height_grid.xy, height_grid.z, ivec2(height_cells), int(height_grid.w));
-  HeightHit hit = walk_under(grid, at, direction, reach, places, weights);
+  HeightHit hit = walk_under(grid, at, direction, reach, places, weights, seen);
   float before = detail == all_detail ? hit_before(at, direction, hit.distance, place_of(maps_around(at).x))
                                       : hit.distance;
   if (before < hit.distance) {
     hit = HeightHit(before, hit_side);
-    choose_maps(at, direction, at + before * direction, places, weights);
+    seen = choose_maps(at, direction, at + before * direction, places, weights);
   }
   return hit;
 }
@@ -119,9 +122,9 @@ void trace_mirror_ray(vec3 at, vec3 direction) {
   BodyHit body = BodyHit(mirror_reach_m, -1, 1.0f, vec3(0.0f), vec3(0.0f));
   if (detail == all_detail) body = intersect_bodies(at, direction, mirror_reach_m);
   vec4 places[2];
-  float weights[2];
+  float weights[2], seen;
   bool is_whole = body.share == 1.0f;
-  HeightHit hit = hit_of_ray(at, direction, is_whole ? body.distance : mirror_reach_m, places, weights);
+  HeightHit hit = hit_of_ray(at, direction, is_whole ? body.distance : mirror_reach_m, places, weights, seen);
   if (body.body >= 0 && (is_whole ? hit.kind == hit_nothing : hit.distance > body.distance)) {
     vec3 point = at + body.distance * direction;
     reflected.body_radiance = radiance_of_body(body, point, direction, places[0].w);
@@ -131,6 +134,7 @@ void trace_mirror_ray(vec3 at, vec3 direction) {
 
   reflected.distance = hit.distance;
   reflected.is_ground = hit.kind == hit_top;
+  reflected.open_sky = hit.kind == hit_nothing ? 1.0f - seen : 0.0f;
   if (hit.kind == hit_side && detail == all_detail)
     reflected.distance = hit_on_map(at, direction, hit.distance, places[0].xyz, places[0].w);
   vec3 point = at + reflected.distance * direction;
@@ -158,6 +162,7 @@ void look_along(vec3 at, vec3 direction) {
   reflected.body_share = 0.0f;
   reflected.body_radiance = vec3(0.0f);
   reflected.is_ground = false;
+  reflected.open_sky = 0.0f;
   reflected.direction = direction;
   reflected.shade = vec3(1.0f);
   reflected.weight[1] = 0.0f;
@@ -191,6 +196,7 @@ vec3 reflected_radiance(float roughness, float over_ground) {
       seen = mix(seen, glossy_radiance(k, normalize(to_hit + reflected.direction), roughness), over_ground);
     sum += reflected.weight[k] * seen;
   }
+  sum = mix(sum, sky_radiance(reflected.direction, roughness), reflected.open_sky);
   return min(mix(reflected.shade * sum, reflected.body_radiance, reflected.body_share), vec3(max_radiance));
 }
 

@@ -14,7 +14,9 @@
 #include "reflections/methods/reflections.h"
 #include "reflections/reference_maps/height_pyramid.h"
 #include "reflections/reference_maps/map_cache.h"
+#include "reflections/reference_maps/map_keeper.h"
 #include "reflections/reference_maps/map_renewal.h"
+#include "reflections/reference_maps/place_search.h"
 
 namespace parvis::environment_rays {
 #include "reflections/environment_rays/ray_detail.glsl"
@@ -22,8 +24,9 @@ using namespace reference_maps;
 
 /// Creates the method for a scene. A reference map is read, or drawn if it is not baked, when a reflector
 /// first looks into it: for a picture or a film's frame all of them, in a window at most one is drawn per
-/// frame. As many are held as ReferenceMaps::max_count allows. Errors: a shader; the driver has no memory for
-/// the maps.
+/// frame, and kept. As many are held as ReferenceMaps::max_count allows. With methods::Pace::begins_at_once
+/// a few maps, evenly spread, serve until all have their places. Errors: a shader; the driver has no memory
+/// for the maps.
 Result<std::unique_ptr<methods::Reflections>> make_multiple_environment_maps(
     const scene::Scene& scene, render::Renderer& renderer,
     std::unique_ptr<methods::Reflections> below = nullptr);
@@ -46,6 +49,8 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
 
   const ReferenceMaps& maps() const { return maps_; }  ///< those that are held, each as drawn last
   std::size_t drawn_maps() const { return table_.drawn_layers().size(); }  ///< how many hold something
+  /// Whether the maps stand where they stay; else a few, evenly spread, serve meanwhile.
+  bool is_placed() const { return !search_; }
 
   /// Level of detail (ray_detail.glsl) at which an object was shaded last.
   int detail_of(int object) const { return details_[std::size_t(object)]; }
@@ -55,8 +60,9 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   using Programs = std::array<gl::Program, detail_count>;
 
   MultipleEnvironmentMaps(const scene::Scene& scene, const HeightPyramid& heights, MapCache baked,
-                          std::vector<glm::vec3> places, ReferenceMaps maps, MapRenewal renewal,
-                          methods::MirrorPicture picture, Programs programs);
+                          std::vector<glm::vec3> places, std::unique_ptr<PlaceSearch> search,
+                          ReferenceMaps maps, MapRenewal renewal, methods::MirrorPicture picture,
+                          Programs programs);
   int best_detail_for(const methods::VisibleReflector& reflector) const;
   void choose_details(const render::Renderer& renderer,
                       const std::vector<methods::VisibleReflector>& reflectors);
@@ -64,6 +70,8 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<methods::VisibleReflector>& reflectors) override;
   void begin_frame() override;
+  bool take_places(const scene::Scene& scene);
+  void keep(const scene::Scene& scene, std::size_t map);
   void forget_surroundings() override;
   void find_missing_maps(const render::Renderer& renderer,
                          const std::vector<methods::VisibleReflector>& reflectors);
@@ -76,7 +84,9 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   std::vector<GLuint> prepared_;  ///< programs of surfaces that have this frame's textures
   methods::MirrorPicture picture_;
   Programs programs_;
-  std::optional<MapCache> baked_;  ///< none: what is baked is out of date
+  std::unique_ptr<PlaceSearch> search_;  ///< of all maps' places; null: they are found
+  std::optional<MapCache> baked_;        ///< none: what is baked is out of date
+  std::unique_ptr<MapKeeper> keeper_;    ///< from the first map on that a window draws
   ReferenceMaps maps_;
   MapRenewal renewal_;
   MirroredBodies bodies_;

@@ -206,6 +206,15 @@ TEST_F(EnvironmentMapsTest, AMirrorShowsACrownWhereItStands) {
   EXPECT_LT(flip_of(scene, make_multiple_environment_maps, {-2.5f, -3.5f, 2.2f}), 0.095);
 }
 
+// All maps stand under a roof, which hides from them the sky that the mirror beside it shows.
+TEST_F(EnvironmentMapsTest, AMirrorShowsTheSkyThatNoMapSees) {
+  scene::Scene scene = tower_square();
+  scene::add(scene, scene::model_of(scene::box({3.5f, -9, 3.0f}, {14, 3, 3.5f}), lamp({0.9f, 0.5f, 0.2f})));
+  map_plan(scene).places = {{6, -5, 1.5f}, {10, -5, 1.5f}, {6, -1, 1.5f}, {10, -1, 1.5f}};
+  EXPECT_LT(flip_of(scene, make_multiple_environment_maps, {0.5f, -1.0f, 7.0f}), 0.3)
+      << "a mirror that shows the roof's lower side in place of the sky stands at 0.66";
+}
+
 // Light is computed before the first view is drawn; maps that were kept have drawn nothing either.
 TEST_F(EnvironmentMapsTest, TheFirstFrameIsLikeTheSecond) {
   scene::Scene scene = tower_square();

@@ -54,7 +54,7 @@ Result<NearCosts> near_costs(house::Stage& stage, const methods::Settings& shipp
                              int views, int repeats);
 
 /// `near_cost_ratio_rerendered_over_mem`, in street-level views of a near car in which ten of the city's
-/// thirty are seen, with `near_flip_mem_over_rerendered` of the same views, and controls.
+/// thirty are seen, with `near_flip_ratio_mem_over_rerendered` of the same views, and controls.
 Status measure_near_costs(house::Stage& stage, const methods::Settings& shipped, bool is_quick,
                           Report& report);
 
