@@ -11,6 +11,7 @@
 #include "graphics/gl/context.h"
 #include "graphics/render/picture_target.h"
 #include "house/stage/stillness.h"
+#include "reflections/methods/settings.h"
 #include "viewer/input.h"
 #include "viewer/keys.h"
 #include "viewer/panel.h"
@@ -202,9 +203,14 @@ double rate_of(const WindowOptions& options, bool is_software) {
   return is_software ? software_rate : gpu_rate;
 }
 
+bool begins_at_once(const WindowOptions& options) {
+  return options.max_frames == 0 || options.always_holds_rate;
+}
+
 Status show(house::Play play, const WindowOptions& options) {
   Glfw glfw;
   if (Status status = open_window(glfw, options); !status) return status;
+  play.scene.data<methods::Pace>().begins_at_once = begins_at_once(options);
   Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(std::move(play));
   if (!stage) return stage.errors();
   const Result<Camera> start = (*stage)->camera(options.camera);

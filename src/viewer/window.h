@@ -25,6 +25,9 @@ struct WindowOptions {
 /// where `max_frames` asks for pictures that can be repeated, unless `always_holds_rate`.
 double rate_of(const WindowOptions& options, bool is_software);
 
+/// Whether the first picture may be a cheaper one (methods::Pace): not where pictures can be repeated.
+bool begins_at_once(const WindowOptions& options);
+
 /// Opens the window, makes a stage of the play and shows it until the window is closed. Fails where there is
 /// no display or no OpenGL 4.5.
 Status show(house::Play play, const WindowOptions& options);

@@ -31,5 +31,14 @@ TEST(Window, HoldsNoRateWhereItCloses) {
   EXPECT_EQ(rate_of(options, on_gpu), 60.0);
 }
 
+TEST(Window, BeginsAtOnceUnlessItsPicturesAreToBeRepeated) {
+  WindowOptions options;
+  EXPECT_TRUE(begins_at_once(options));
+  options.max_frames = 3;
+  EXPECT_FALSE(begins_at_once(options));
+  options.always_holds_rate = true;
+  EXPECT_TRUE(begins_at_once(options));
+}
+
 }  // namespace
 }  // namespace parvis::viewer
