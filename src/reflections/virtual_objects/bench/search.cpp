@@ -25,7 +25,8 @@ constexpr std::array real_bodies{"teapot", "beetle-alt", "spot", "stanford-bunny
 constexpr std::size_t reflections = 20000, quick_reflections = 4000;  // a body
 constexpr int turns = 9, quick_turns = 5;
 constexpr int ellipsoid_rings = 256;
-constexpr int paper_iterations = 9, more_iterations = 2 * paper_iterations;
+constexpr int paper_iterations = 9;
+constexpr int more_iterations = 12;  // an eighth of the error: more than the target allows
 constexpr double max_angle_ratio = 0.1;
 constexpr double max_flagged_percent = 1.0, max_flagged_near_percent = 5.0;
 constexpr float search_ends = 2e-9f;  // error, 0.005 degrees
@@ -113,7 +114,7 @@ Result<Bodies> make_bodies(const BenchSetup& setup, Report& report) {
 void report_angles(const char* where, const ComparedSearches& compared, Report& report) {
   report.add(fmt::format("newton_over_midpoint9_p99_angle_{}", where), compared.newton_ratio(),
              up_to(max_angle_ratio));
-  report.add_control(fmt::format("midpoint18_over_midpoint9_p99_angle_{}", where), compared.control_ratio(),
+  report.add_control(fmt::format("midpoint12_over_midpoint9_p99_angle_{}", where), compared.control_ratio(),
                      up_to(max_angle_ratio));
   report.add(fmt::format("newton_not_found_percent_{}", where), compared.not_found_by_newton.percent());
   report.add(fmt::format("midpoint9_not_found_percent_{}", where), compared.not_found_by_midpoint.percent());
@@ -162,7 +163,7 @@ void measure_maps(const Bodies& all, const BenchSetup& setup, Report& report) {
   report_angles("bodies", of_bodies, report);
   report.add("newton_over_midpoint9_p99_angle",
              std::max(of_ellipsoids.newton_ratio(), of_bodies.newton_ratio()), up_to(max_angle_ratio));
-  report.add_control("midpoint18_over_midpoint9_p99_angle",
+  report.add_control("midpoint12_over_midpoint9_p99_angle",
                      std::min(of_ellipsoids.control_ratio(), of_bodies.control_ratio()),
                      up_to(max_angle_ratio));
   for (int turn = 0; turn < (setup.is_quick ? quick_turns : turns); ++turn) {
