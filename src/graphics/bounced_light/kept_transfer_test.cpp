@@ -1,4 +1,4 @@
-// What is kept of bounced light beside a scene: read as it was traced, and made anew where it cannot be used.
+// What is kept of bounced light beside a scene: read as it was traced, and traced again where it cannot be used.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -100,7 +100,7 @@ TEST_F(KeptTransfer, OfAnotherSceneOrDamagedIsNotUsed) {
   EXPECT_NE(testing::internal::GetCapturedStderr().find("traced again"), std::string::npos);
 }
 
-TEST_F(KeptTransfer, IsBakedAnewWhereItCannotBeUsed) {
+TEST_F(KeptTransfer, IsTracedAgainWhereItCannotBeUsed) {
   House house;
   furnish(house);
   const render::BakeStep& step = house.get<render::BakeSteps>().all().front();
