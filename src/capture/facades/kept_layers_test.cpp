@@ -69,7 +69,7 @@ TEST(KeptLayers, WhatIsFinishedIsTakenOverAndTheRestIsMade) {
   EXPECT_FALSE(is_new(place.filled(1)));
 }
 
-TEST(KeptLayers, AnotherPhotographModelOrSettingIsMadeAgain) {
+TEST(KeptLayers, AnotherPhotographModelOrSettingIsComputedAgain) {
   Place place;
   (void)place.made();
   const auto is_made_anew = [&](const PlaceSettings& settings) {
