@@ -1,4 +1,5 @@
-// What is kept of bounced light beside a scene: read as it was traced, and traced again where it cannot be used.
+// What is kept of bounced light beside a scene: read as it was traced, and traced again where that cannot be
+// used.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -49,7 +49,7 @@ void look_at_sky(SeenPoint seen) {
 // Share of the sun that is seen.
 float seen_sun(SeenPoint seen) {
 #ifdef IS_LEAF
-  float drawn = leaf_sun;
+  float drawn = clamp(leaf_sun, 0.0f, 1.0f);  // the middle of a pixel may lie outside of a small leaf
 #else
   float drawn = visible_sun(position, seen.normal);
 #endif

@@ -9,6 +9,7 @@
 #include "graphics/render/culling_check.h"
 #include "graphics/render/golden.h"
 #include "graphics/render/picture_reader.h"
+#include "scene/data/test_crown.h"
 #include "scene/data/test_scene.h"
 
 namespace parvis::render {
@@ -49,6 +50,27 @@ TEST_F(RendererTest, AnEmptySceneShowsTheSky) {
   const glm::vec3 zenith = sky_radiance(renderer->sky(), {0, 0, 1}, 0.0f);
   const ImageF radiance = renderer->read_radiance();
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(radiance.at(16, 16)[c], zenith[c], 0.02f * zenith[c]);
+}
+
+/// Leaves are lit at their corners, and shaded in the middle of a pixel, which may lie outside of a small leaf.
+TEST_F(RendererTest, LeavesOfAFewPixelsAreNotDarkerThanBlack) {
+  scene::Scene scene;
+  scene.sun.direction_to_sun = {0, 0, 1};
+  add(scene, model_of(ground(30), matt(glm::vec3(0.3f))));
+  add(scene, model_of(scene::crown(6000), scene::leaf_material({0.2f, 0.5f, 0.1f}, 0.4f)));
+  for (int slat = 0; slat < 16; ++slat) {
+    const float x = -4.0f + 0.5f * float(slat);
+    add(scene, model_of(box({x, -4, 4}, {x + 0.25f, 4, 4.1f}), matt(glm::vec3(0.3f))));
+  }
+  const auto renderer = renderer_of(scene);
+  Camera camera;
+  camera.world_from_camera = look_at({0, -12, 3}, {0, 0, 1});
+  draw(*renderer, scene, camera, 320, 240);
+  const ImageF radiance = renderer->read_radiance();
+  float darkest = 1.0f;
+  for (int y = 0; y < radiance.height; ++y)
+    for (int x = 0; x < radiance.width; ++x) darkest = std::min(darkest, radiance.at(x, y)[1]);
+  EXPECT_GT(darkest, 0.0f);
 }
 
 /// A wall in a plain, seen aslant.

@@ -105,9 +105,11 @@ vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
   return speck_radiance + seen_sun(seen) * speck_sunlight;
 }
 #elif defined(IS_LEAF)
-// Radiance toward the viewer, through the haze, of what was lit at its corners.
+// Radiance toward the viewer, through the haze, of what was lit at its corners. The middle of a pixel may lie
+// outside of a small leaf, where light that goes on from corner to corner falls below zero.
 vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
-  CornerLight light = CornerLight(leaf_light, leaf_light_behind, leaf_lamps, leaf_mirrored);
+  CornerLight light = CornerLight(max(leaf_light, vec3(0.0f)), max(leaf_light_behind, vec3(0.0f)),
+                                  max(leaf_lamps, vec3(0.0f)), max(leaf_mirrored, vec3(0.0f)));
   vec3 to_sun = to_sun_at(position), sunlight = seen_sun(seen) * frame_sun_irradiance.rgb;
 #ifdef HAS_VERTEX_LIGHT
   light.irradiance = light_before, light.irradiance_behind = light_behind;
