@@ -52,7 +52,8 @@ TEST_F(RendererTest, AnEmptySceneShowsTheSky) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(radiance.at(16, 16)[c], zenith[c], 0.02f * zenith[c]);
 }
 
-/// Leaves are lit at their corners, and shaded in the middle of a pixel, which may lie outside of a small leaf.
+/// Leaves are lit at their corners, and shaded in the middle of a pixel, which may lie outside of a small
+/// leaf.
 TEST_F(RendererTest, LeavesOfAFewPixelsAreNotDarkerThanBlack) {
   scene::Scene scene;
   scene.sun.direction_to_sun = {0, 0, 1};
