@@ -23,6 +23,7 @@ class PlaceSearch {
   /// Copies what it reads of the scene, which may change meanwhile.
   PlaceSearch(const scene::Scene& scene, std::shared_ptr<const HeightPyramid> heights);
 
+  /// Whether `take` would not wait.
   bool is_done() const;
   /// Waits for the result and gives it away; to be called once.
   PlacedMaps take() { return found_.get(); }
