@@ -11,6 +11,7 @@ namespace {
 
 constexpr glm::vec3 cell_size_m{4.0f, 4.0f, 3.0f};
 constexpr float max_cells = 2e6f;
+constexpr int max_side = 2048;  // what OpenGL 4.5 promises of 3D textures
 constexpr int directions = 12;
 constexpr std::array<float, 10> distances_m{1.5f,  3.0f,  5.0f,  7.5f,  11.0f,
                                             16.0f, 23.0f, 33.0f, 48.0f, sky_visibility_reach_m};
@@ -70,6 +71,8 @@ Grid layout(const Bounds& bounds) {
   const vec3 size = bounds.max + grid.cell_m - grid.origin;
   const float wanted = (size.x / grid.cell_m.x) * (size.y / grid.cell_m.y) * (size.z / grid.cell_m.z);
   if (wanted > max_cells) grid.cell_m *= std::cbrt(wanted / max_cells);
+  // A road of many kilometres has few cells and yet more in a row than a texture may have.
+  grid.cell_m = glm::max(grid.cell_m, size / float(max_side - 1));
   grid.cells = glm::max(glm::ivec3(glm::ceil(size / grid.cell_m)), glm::ivec3(1));
   return grid;
 }
@@ -146,7 +149,7 @@ SkyVisibility make_sky_visibility(const Heightfield& heights, WallLight walls) {
   fill(grid, heights, walls);
 
   SkyVisibility result;
-  result.grid = {grid.origin, grid.cell_m * vec3(grid.cells), 0.5f * grid.cell_m.x};
+  result.grid = {grid.origin, grid.cell_m * vec3(grid.cells), 0.5f * std::min(grid.cell_m.x, grid.cell_m.y)};
   result.cells = grid.cells;
   result.values.resize(4 * grid.values.size());
   for (std::size_t i = 0; i < grid.values.size(); ++i) store(grid.values[i], &result.values[4 * i]);

@@ -79,6 +79,19 @@ TEST(SkyVisibility, AGlossyStreetMirrorsMoreOfTheSkyAboveThanOfTheWalls) {
   EXPECT_GT(sky_share_of_direction(cell, up), sky_share_of_direction(cell, {1, 0, 0}) + 0.1f);
 }
 
+TEST(SkyVisibility, AStreetOfManyKilometresFitsATextureToItsEnd) {
+  const float half_m = 15'000.0f;
+  Heightfield heights({{-half_m, -24, 0}, {half_m, 24, 20}}, 1.0f, 40'000);
+  heights.add(roof(-half_m, half_m, -24, -8, 20), glm::mat4(1.0f));
+  heights.add(roof(-half_m, half_m, 8, 24, 20), glm::mat4(1.0f));
+  const SkyVisibility sky = make_sky_visibility(heights);
+  EXPECT_LE(sky.cells.x, 2048);  // what OpenGL 4.5 promises
+  for (const float at_m : {500 - half_m, 0.0f, half_m - 500}) {
+    EXPECT_NEAR(share(sky, {at_m, 0, 0}, up), share(street(), {0, 0, 0}, up), 0.05f) << at_m;
+    EXPECT_GT(share(sky, {at_m, 0, 20}, up), 0.9f) << at_m;
+  }
+}
+
 TEST(SkyVisibility, OutsideTheGridItsEdgeCounts) {
   EXPECT_NEAR(share(street(), {0, 0, 500}, up), 1.0f, 0.02f);
 }
