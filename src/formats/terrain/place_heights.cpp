@@ -18,7 +18,8 @@ namespace {
 
 constexpr float finest_cell_m = 2.0f;
 constexpr float max_cells = 60'000.0f;
-constexpr float foot_cell_m = 8.0f;                 // in each the lowest point counts
+constexpr float finest_foot_cell_m = 8.0f;          // in each the lowest point counts
+constexpr float max_foot_cells = 4e6f;              // 16 x 16 km of the finest: beside a far model they widen
 constexpr float foot_slope = 0.12f, flat_m = 0.1f;  // of steep streets: what stands higher is no foot
 constexpr int foot_reach_cells = 6;                 // in which lower feet are looked for
 constexpr int own_reach_cells = 2;                  // of one building's feet around its lowest
@@ -91,8 +92,8 @@ bool each_around(const HeightRaster& raster, glm::ivec2 middle, int reach, const
 }
 
 /// How high a foot at `cell` may lie over one at `other` on a steep street.
-float max_rise_m(glm::ivec2 cell, glm::ivec2 other) {
-  return flat_m + foot_slope * foot_cell_m * glm::length(glm::vec2(cell - other));
+float max_rise_m(const HeightRaster& feet_m, glm::ivec2 cell, glm::ivec2 other) {
+  return flat_m + foot_slope * feet_m.cell_m * glm::length(glm::vec2(cell - other));
 }
 
 /// Whether the lowest point of a cell is a foot, where those of the cells that `is_left_out` do not count.
@@ -101,7 +102,7 @@ bool is_foot(const HeightRaster& feet_m, glm::ivec2 cell, const IsLeftOut& is_le
   const float foot_m = feet_m.at(cell.x, cell.y);
   if (std::isnan(foot_m) || is_left_out(cell)) return false;
   return each_around(feet_m, cell, foot_reach_cells, [&](glm::ivec2 other) {
-    return is_left_out(other) || foot_m <= feet_m.at(other.x, other.y) + max_rise_m(cell, other);
+    return is_left_out(other) || foot_m <= feet_m.at(other.x, other.y) + max_rise_m(feet_m, cell, other);
   });
 }
 
@@ -118,7 +119,7 @@ void mark_pit(const HeightRaster& feet_m, const HeightRaster& tops_m, glm::ivec2
   float around_m = std::numeric_limits<float>::max();
   each_around(feet_m, lowest, foot_reach_cells, [&](glm::ivec2 cell) {
     const float other_m = feet_m.at(cell.x, cell.y);
-    if (other_m <= foot_m + max_rise_m(cell, lowest) || !is_foot(feet_m, cell, is_own)) return true;
+    if (other_m <= foot_m + max_rise_m(feet_m, cell, lowest) || !is_foot(feet_m, cell, is_own)) return true;
     is_higher[std::size_t(cell.x >= lowest.x) + 2 * std::size_t(cell.y >= lowest.y)] = true;
     around_m = std::min(around_m, other_m);
     return true;
@@ -167,6 +168,7 @@ PlaceHeights::PlaceHeights(const Scene& scene, std::span<const Road> roads, floa
   own_ground_ = Mask(heights_m_, 0);
   built_ = Mask(heights_m_, 0);
 
+  const float foot_cell_m = std::max(finest_foot_cell_m, std::sqrt(size.x * size.y / max_foot_cells));
   const glm::ivec2 foot_cells = glm::ivec2(glm::ceil(size / foot_cell_m)) + 1;
   HeightRaster feet_m(foot_cells.x, foot_cells.y, foot_cell_m, heights_m_.origin, unknown);
   HeightRaster tops_m = feet_m;

@@ -97,6 +97,15 @@ TEST(PlaceHeights, RoadsLieOnTheGround) {
   EXPECT_NEAR(place.at({50.0f, 0.0f}), 11.0f, 0.1f);
 }
 
+/// As one in the coordinates of its map beside one about the origin: cells of metres would fill the memory.
+TEST(PlaceHeights, AModelThousandsOfKilometresAwayTakesNoMemoryForTheWayThere) {
+  Scene scene;
+  for (const float away_m : {0.0f, 4e6f})
+    add(scene, model_of(box({away_m, away_m, 5}, {away_m + 12, away_m + 12, 14}), matt(glm::vec3(0.5f))));
+  const PlaceHeights place(scene, {}, margin_m);
+  for (const float at_m : {0.0f, 4e6f}) EXPECT_NEAR(place.at({at_m, at_m}), 5.0f, 0.1f) << at_m;
+}
+
 TEST(PlaceHeights, NothingAtAllIsLevel) { EXPECT_EQ(PlaceHeights({}, {}, margin_m).at({5.0f, 5.0f}), 0.0f); }
 
 TEST(PlaceHeights, LeavesOutWhatSurroundsThePlace) {
