@@ -1,7 +1,7 @@
 // parvis export: a scene, or parts of it, as glTF for other programs.
+#include "base/known_names.h"
 #include "commands.h"
 #include "formats/gltf/gltf_writer.h"
-#include "scene/script/spelling.h"
 #include "scene_arguments.h"
 
 namespace parvis {
@@ -25,7 +25,7 @@ Result<std::vector<const scene::Object*>> chosen_objects(const Arguments& argume
   for (const std::string& wanted : arguments.objects)
     if (std::find(names.begin(), names.end(), wanted) == names.end())
       return error("--object {}: nothing in the scene has this name{}", wanted,
-                   scene::did_you_mean(wanted, names));
+                   names_that_exist(wanted, names));
   return chosen;
 }
 

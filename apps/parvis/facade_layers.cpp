@@ -1,6 +1,7 @@
 // parvis facade layers, fill, pack, report, figures: from a calibrated place with a model to a scene.
 #include <memory>
 
+#include "base/known_names.h"
 #include "base/path_inside.h"
 #include "capture/facades/place_figures.h"
 #include "capture/facades/place_report.h"
@@ -81,7 +82,8 @@ Status draw_figures(const FigureArguments& arguments) {
   if (!place) return place.errors();
   const auto named = std::ranges::find(place->names, arguments.photograph);
   if (!arguments.photograph.empty() && named == place->names.end())
-    return error("{}: there is no photograph {}", arguments.place.folder.string(), arguments.photograph);
+    return error("{}: there is no photograph \"{}\"{}", arguments.place.folder.string(), arguments.photograph,
+                 names_that_exist(arguments.photograph, place->names));
   const std::size_t photo = arguments.photograph.empty() ? facades::richest_photograph(*place)
                                                          : std::size_t(named - place->names.begin());
   const Result<std::filesystem::path> output =

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/known_names.h"
 #include "base/memory_budget.h"
 #include "base/result.h"
 #include "house/rooms.h"
@@ -28,8 +29,8 @@ inline void add_max_memory(CLI::App& command) {
 /// folder, says so, and names that script instead.
 inline Status describe_bare_file(std::filesystem::path& scene, std::vector<std::filesystem::path>& data) {
   for (const std::filesystem::path& folder : data)
-    if (std::error_code ignored; !std::filesystem::is_directory(folder, ignored))
-      fmt::print(stderr, "warning: --data {}: there is no such folder\n", folder.string());
+    if (const std::string missing = missing_folder(folder); !missing.empty())
+      fmt::print(stderr, "warning: --data {}: {}\n", folder.string(), missing);
   if (!dressing::is_bare_file(scene)) return Done{};
   const Result<dressing::WrittenScene> written =
       dressing::write_bare_scene(scene, house::all_rooms().get<formats::Readers>(), ".");

@@ -8,6 +8,7 @@
 #include "base/content_hash.h"
 #include "base/files.h"
 #include "base/image_io.h"
+#include "base/known_names.h"
 #include "base/path_inside.h"
 #include "base/progress.h"
 #include "base/sealed_file.h"
@@ -151,9 +152,9 @@ class MatteFile {
 Result<MatteCounts> write_mattes(const MatteFolder& folder) {
   const std::vector<fs::path> files = pictures_of(folder.photographs);
   if (files.empty()) return error("{}: no .png or .jpg pictures are there", folder.photographs.string());
+  if (const std::string missing = folder.zones.empty() ? "" : missing_folder(folder.zones); !missing.empty())
+    return error("--zones {}: {}", folder.zones.string(), missing);
   std::error_code code;
-  if (!folder.zones.empty() && !fs::is_directory(folder.zones, code))
-    return error("--zones {}: there is no such folder", folder.zones.string());
   fs::create_directories(folder.output, code);
   if (code) return error("{}: the folder cannot be made: {}", folder.output.string(), code.message());
   std::map<fs::path, fs::path> file_of;

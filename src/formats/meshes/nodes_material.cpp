@@ -1,13 +1,13 @@
 // material: another surface for a part of a model.
 #include <set>
 
+#include "base/known_names.h"
 #include "formats/meshes/material_change.h"
 #include "formats/meshes/mesh_nodes.h"
 #include "scene/data/model_parts.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
-#include "scene/script/spelling.h"
 
 namespace parvis::scene {
 namespace {
@@ -69,13 +69,9 @@ std::vector<std::string> names_of_objects(const Model& model) {
 }
 
 Error no_such_object(const Node& node, const Model& model) {
-  constexpr std::size_t shown = 12;
-  std::vector<std::string> names = names_of_objects(model);
-  const std::string target = node.text("target"), meant = did_you_mean(target, names);
-  const bool has_more = names.size() > shown;
-  if (has_more) names.resize(shown);
-  return error_at(node.where_of("target"), "no object of the model is called \"{}\"{} It has {}{}", target,
-                  meant.empty() ? "." : meant, fmt::join(names, ", "), has_more ? ", ..." : "");
+  const std::string target = node.text("target");
+  return error_at(node.where_of("target"), "no object of the model is called \"{}\"{}", target,
+                  names_that_exist(target, names_of_objects(model)));
 }
 
 MaterialChange change_of(const Node& node) {

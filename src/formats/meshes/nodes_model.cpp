@@ -1,6 +1,7 @@
 // model: a model file, placed.
 #include <algorithm>
 
+#include "base/known_names.h"
 #include "formats/meshes/glass_pane.h"
 #include "formats/meshes/mesh_nodes.h"
 #include "formats/meshes/model_node.h"
@@ -13,7 +14,6 @@
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
-#include "scene/script/spelling.h"
 
 namespace parvis::scene {
 namespace {
@@ -86,7 +86,7 @@ GroundOnMap ground_below(const Node& node, SceneBuilder& builder, std::size_t& p
   const auto object = std::ranges::find(builder.scene.objects, name, &Object::name);
   if (object == builder.scene.objects.end()) {
     builder.fail(error_at(node.where_of("ground"), "no model called \"{}\" stands before this node{}", name,
-                          scene::object_names(builder.scene)));
+                          names_that_exist(name, scene::object_names(builder.scene))));
     return {};
   }
   const auto heights = std::make_shared<const TerrainHeights>(*object->model);
@@ -160,7 +160,7 @@ PlayedAnimation animation_of(const Model& model, const Node& node, SceneBuilder&
     played.animation = 0;
   } else if (!wanted.empty()) {
     builder.fail(error_at(node.where_of("animation"), "the file has no animation \"{}\"{}", wanted,
-                          names.empty() ? "; it has none at all" : did_you_mean(wanted, names)));
+                          names_that_exist(wanted, names)));
   }
   return played;
 }

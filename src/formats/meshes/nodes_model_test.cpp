@@ -143,9 +143,9 @@ TEST_F(ModelNodes, OpenSolidGlassIsAPane) {
 }
 
 TEST_F(ModelNodes, BadTargetsMasksAndFilesAreReported) {
-  EXPECT_TRUE(
-      holds(errors_of("model(file=two.glb) {\n material(target=\"bdy\") }"),
-            "scene.xp:2:18: no object of the model is called \"bdy\"; did you mean \"body\"? It has "));
+  EXPECT_TRUE(holds(
+      errors_of("model(file=two.glb) {\n material(target=\"bdy\") }"),
+      "scene.xp:2:18: no object of the model is called \"bdy\"; did you mean \"body\"? There is also "));
   EXPECT_TRUE(
       holds(errors_of("model(file=two.glb) {\n material(mask=\"box 1 2\") }"), "scene.xp:2:16: mask="));
   EXPECT_TRUE(holds(errors_of("model(file=two.glb) { material(preset=glas) }"), "did you mean \"glass\"?"));

@@ -3,8 +3,10 @@
 #include <map>
 #include <utility>
 
+#include "base/known_names.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/name_pattern.h"
+#include "scene/data/object_names.h"
 #include "scene/data/scene.h"
 
 namespace parvis::lamps {
@@ -19,13 +21,6 @@ std::vector<const scene::Object*> objects_called(const ObjectsByName& objects, c
        each != (is_name ? objects.upper_bound(pattern) : objects.end()); ++each)
     if (is_name || scene::matches(pattern, each->first)) found.push_back(each->second);
   return found;
-}
-
-std::set<std::string> object_names(const scene::Scene& scene) {
-  std::set<std::string> names;
-  for (const scene::Object& object : scene.objects)
-    if (!object.name.empty()) names.insert(object.name);
-  return names;
 }
 
 std::set<std::string> parts_of(const std::vector<const scene::Object*>& objects) {
@@ -75,8 +70,8 @@ void LampProcess::warn_of_idle(const scene::Scene& scene) {
     for (const char* attribute : {"of", "shows"})
       if (const std::string& pattern = node->text(attribute);
           !pattern.empty() && objects_called(objects_by_name, pattern).empty()) {
-        warn(error_at(node->where_of(attribute), "lamp: no object is called \"{}\"; the scene has {}",
-                      pattern, scene::listed(object_names(scene))));
+        warn(error_at(node->where_of(attribute), "lamp: no object is called \"{}\"{}", pattern,
+                      names_that_exist(pattern, scene::object_names(scene))));
         ++warnings;
       }
     const std::string& part = node->text("part");
@@ -85,8 +80,8 @@ void LampProcess::warn_of_idle(const scene::Scene& scene) {
                                                           : objects_called(objects_by_name, node->text("of"));
     if (!objects.empty())
       if (const std::set<std::string> parts = parts_of(objects); !parts.contains(part)) {
-        warn(error_at(node->where_of("part"), "lamp: no part of \"{}\" is called \"{}\"; there are {}",
-                      node->text("of"), part, scene::listed(parts)));
+        warn(error_at(node->where_of("part"), "lamp: no part of \"{}\" is called \"{}\"{}", node->text("of"),
+                      part, names_that_exist(part, std::vector(parts.begin(), parts.end()))));
         ++warnings;
       }
     if (warnings >= max_warnings) return;

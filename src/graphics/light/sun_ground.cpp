@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
+#include "base/known_names.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/name_pattern.h"
-#include "scene/script/spelling.h"
 
 namespace parvis::light {
 namespace {
@@ -141,8 +141,8 @@ Result<NamedSurfaces> NamedSurfaces::find(const scene::Scene& scene, const std::
     });
     if (is_known) continue;
     const std::set<std::string> known = names_in(scene);
-    return error("nothing in the scene is called \"{}\"; there are {}{}", name, scene::listed(known),
-                 scene::did_you_mean(name, std::vector(known.begin(), known.end())));
+    return error("nothing in the scene is called \"{}\"{}", name,
+                 names_that_exist(name, std::vector(known.begin(), known.end())));
   }
   return found;
 }

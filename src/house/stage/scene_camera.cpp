@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/camera_check.h"
+#include "base/known_names.h"
 #include "scene/data/surroundings.h"
 
 namespace parvis::house {
@@ -36,9 +37,9 @@ Result<Camera> scene_camera(const scene::Scene& scene, const std::string& name) 
   }
   const scene::NamedCamera* named = name.empty() ? &scene.cameras.front() : scene.find_camera(name);
   if (!named) {
-    std::string names;
-    for (const scene::NamedCamera& camera : scene.cameras) names += (names.empty() ? "" : ", ") + camera.name;
-    return error("the scene has no camera \"{}\"; it has {}", name, names.empty() ? "none" : names);
+    std::vector<std::string> names;
+    for (const scene::NamedCamera& camera : scene.cameras) names.push_back(camera.name);
+    return error("the scene has no camera \"{}\"{}", name, names_that_exist(name, names));
   }
   const Result<Camera> camera = scene.camera_now(*named);
   if (camera && !is_usable(*camera))

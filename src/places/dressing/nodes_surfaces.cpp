@@ -1,6 +1,7 @@
 // facades, roofs, ground, greenery: for city models that are bare volumes.
 #include "places/dressing/nodes_surfaces.h"
 
+#include "base/known_names.h"
 #include "places/dressing/facades.h"
 #include "places/dressing/ground_cover.h"
 #include "places/dressing/roofs.h"
@@ -44,8 +45,9 @@ std::string example_of(const std::string& node) {
 /// Nothing of the file answered to `target`.
 void warn(scene::SceneBuilder& builder, const scene::Node& node, const scene::Model& model,
           const char* wanted) {
-  builder.warn(error_at(node.where_of("target"), "{}: nothing that matches \"{}\" has {}; the model has {}",
-                        node.schema->type, node.text("target"), wanted, scene::part_names(model)));
+  builder.warn(error_at(node.where_of("target"), "{}: nothing that matches \"{}\" has {}{}",
+                        node.schema->type, node.text("target"), wanted,
+                        names_that_exist(node.text("target"), scene::part_names(model))));
 }
 
 scene::NodeSchema facades_schema() {

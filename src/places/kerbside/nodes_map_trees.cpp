@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/content_hash.h"
+#include "base/known_names.h"
 #include "base/random.h"
 #include "life/vegetation/scene_plant.h"
 #include "places/kerbside/map_trees.h"
@@ -159,10 +160,11 @@ void plant_map_trees(scene::SceneBuilder& builder) {
     });
     if (first == builder.scene.objects.end())
       return builder.fail(error_at(planned.where_of, "no object is called \"{}\"; give the model that name{}",
-                                   planned.of, scene::object_names(builder.scene)));
+                                   planned.of,
+                                   names_that_exist(planned.of, scene::object_names(builder.scene))));
     if (replace(planned, builder) == 0)
-      builder.warn(error_at(planned.where_target, "nothing that matches \"{}\" is a tree; the model has {}",
-                            planned.target, scene::part_names(*first->model)));
+      builder.warn(error_at(planned.where_target, "nothing that matches \"{}\" is a tree{}", planned.target,
+                            names_that_exist(planned.target, scene::part_names(*first->model))));
   }
 }
 

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "scene/script/spelling.h"
+#include "base/known_names.h"
 
 namespace parvis::action {
 namespace {
@@ -281,9 +281,7 @@ Result<double> Actions::start_tour(const std::string& name) {
     tour.clock.start();
     return length_of(*tour.node);
   }
-  if (known.empty()) return error("the scene has no tour \"{}\"; it has none at all", name);
-  return error("the scene has no tour \"{}\"; it has {}{}", name, fmt::join(known, ", "),
-               scene::did_you_mean(name, known));
+  return error("the scene has no tour \"{}\"{}", name, names_that_exist(name, known));
 }
 
 }  // namespace parvis::action

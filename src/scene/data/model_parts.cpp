@@ -17,23 +17,12 @@ std::vector<std::size_t> matching_parts(const Model& model, std::string_view tar
   return found;
 }
 
-std::string listed(const std::set<std::string>& names) {
-  constexpr std::size_t enough = 10;
-  std::string list;
-  std::size_t count = 0;
-  for (const std::string& name : names) {
-    if (++count > enough) return list + ", ...";
-    list += (list.empty() ? "" : ", ") + ('"' + name + '"');
-  }
-  return list.empty() ? "none" : list;
-}
-
-std::string part_names(const Model& model) {
+std::vector<std::string> part_names(const Model& model) {
   std::set<std::string> names;
   for (const Part& part : model.parts)
     for (const std::string& name : {part.object, model.materials[std::size_t(part.material)].name})
       if (!name.empty()) names.insert(name);
-  return listed(names);
+  return {names.begin(), names.end()};
 }
 
 }  // namespace parvis::scene

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "scene/data/scene.h"
 
 namespace parvis::scene {
 
-/// "; there are \"quarter\", \"hill\"": each name once, in the order of the scene, at most ten; "; there is
-/// none with a name" if no object has one. Stands at the end of a message.
-std::string object_names(const Scene& scene);
+/// Each name once, in the order of the scene; objects without a name have none. For base/known_names.h.
+std::vector<std::string> object_names(const Scene& scene);
 
 }  // namespace parvis::scene

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/known_names.h"
 #include "base/progress.h"
 #include "scene/script/spelling.h"
 
@@ -186,9 +187,7 @@ Status LiveScene::choose(Scene& scene, const std::string& wanted) {
   if (!name.empty() && (!chosen || !is_scenario(*chosen))) {
     std::vector<std::string> known;
     for (const Node* each : scenarios()) known.push_back(each->text("name"));
-    if (known.empty()) return error("the scene has no scenario \"{}\"; it has none at all", name);
-    return error("the scene has no scenario \"{}\"; it has {}{}", name, fmt::join(known, ", "),
-                 did_you_mean(name, known));
+    return error("the scene has no scenario \"{}\"{}", name, names_that_exist(name, known));
   }
   for (auto& [node, attributes] : as_written_) change(*node).attributes = std::move(attributes);
   as_written_.clear();

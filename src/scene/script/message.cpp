@@ -1,6 +1,6 @@
 #include "scene/script/message.h"
 
-#include "scene/script/spelling.h"
+#include "base/known_names.h"
 
 namespace parvis::scene {
 namespace {
@@ -29,9 +29,8 @@ Error unknown_message(const NodeSchema& schema, const std::string& name, const F
   std::vector<std::string> known;
   known.reserve(schema.messages.size());
   for (const MessageSchema& message : schema.messages) known.push_back(message.name);
-  const std::string suggestion = did_you_mean(name, known);
   return error_at(where, "{} takes no message \"{}\"{}", schema.type, name.substr(0, 40),
-                  suggestion.empty() ? fmt::format("; it takes {}", fmt::join(known, ", ")) : suggestion);
+                  names_that_exist(name, known));
 }
 
 }  // namespace

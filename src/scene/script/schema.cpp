@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "base/colour.h"
+#include "base/known_names.h"
 #include "scene/script/named_file.h"
 #include "scene/script/performer_file.h"
-#include "scene/script/spelling.h"
 
 namespace parvis::scene {
 namespace {

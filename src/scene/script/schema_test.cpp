@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/script/spelling.h"
-
 namespace parvis::scene {
 namespace {
 
@@ -71,20 +69,6 @@ TEST(Schema, ErrorsStayShort) {
   const auto value = parse_value(number, std::string(1 << 20, 'x'), Roots(""), {});
   ASSERT_FALSE(value);
   EXPECT_LT(value.errors().front().message.size(), 200u);
-}
-
-TEST(Spelling, CountsEdits) {
-  EXPECT_EQ(edit_distance("", "abc"), 3);
-  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
-  EXPECT_EQ(edit_distance("camrea", "camera"), 1);  // neighbours swapped
-  EXPECT_EQ(edit_distance("Camera", "camera"), 0);
-}
-
-TEST(Spelling, SuggestsOnlyWhatIsNear) {
-  const std::vector<std::string> known{"camera", "model", "material"};
-  EXPECT_EQ(did_you_mean("modle", known), "; did you mean \"model\"?");
-  EXPECT_EQ(did_you_mean("xyzzy", known), "");
-  EXPECT_EQ(did_you_mean(std::string(100'000, 'm'), known), "");
 }
 
 TEST(Schema, AValueIsWrittenAsItIsRead) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/known_names.h"
 #include "scene/script/script_names.h"
 #include "scene/script/script_reader.h"
 #include "scene/script/script_tokens.h"
@@ -99,7 +100,7 @@ std::vector<Node> Checker::nodes(const std::vector<ScriptNode>& written, const s
     const NodeType* type = registry_.find(child.type);
     if (!type) {
       fail(error_at(where, "unknown node type \"{}\"{}", child.type.substr(0, 40),
-                    did_you_mean(child.type, registry_.type_names())));
+                    names_that_exist(child.type, registry_.type_names())));
       continue;
     }
     check_place(child, type->schema, file, parent);
@@ -170,7 +171,7 @@ void Checker::attribute(Node& node, const ScriptAttribute& written, const std::s
     known.reserve(node.schema->attributes.size());
     for (const AttributeSchema& each : node.schema->attributes) known.push_back(each.name);
     return fail(error_at(at_name, "{} has no attribute \"{}\"{}", node.schema->type,
-                         written.name.substr(0, 40), did_you_mean(written.name, known)));
+                         written.name.substr(0, 40), names_that_exist(written.name, known)));
   }
   if (!schema->is_repeatable && node.gives(schema->name))
     return fail(

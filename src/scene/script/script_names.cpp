@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/known_names.h"
 #include "scene/script/message.h"
 #include "scene/script/spelling.h"
 
@@ -82,12 +83,12 @@ void NameResolver::resolve_reference(const AttributeSchema& schema, const std::s
   const std::string shown = name.substr(0, 40);
   if (const auto other = nodes_.find(name); other != nodes_.end())
     return fail(error_at(where, "{}=\"{}\": this is a {}; expected {}{}", schema.name, shown,
-                         other->second->schema->type, expectation(schema), did_you_mean(name, known)));
+                         other->second->schema->type, expectation(schema), names_that_exist(name, known)));
   if (name.starts_with('%'))
     return fail(error_at(where, "{}=\"{}\": the scene has no {} node{}", schema.name, shown, shown.substr(1),
-                         did_you_mean(name, known)));
+                         names_that_exist(name, known)));
   fail(error_at(where, "{}=\"{}\": no node of the scene has this name{}", schema.name, shown,
-                did_you_mean(name, known)));
+                names_that_exist(name, known)));
 }
 
 void NameResolver::resolve_event(const AttributeSchema& schema, const Event& event,
@@ -99,7 +100,7 @@ void NameResolver::resolve_event(const AttributeSchema& schema, const Event& eve
       return fail(error_at(where, "{}: \"{}\" is made when the scene runs and takes no messages", schema.name,
                            event.target));
     return fail(error_at(where, "{}: no node of the scene is called \"{}\"{}", schema.name,
-                         event.target.substr(0, 40), did_you_mean(event.target, known_names({}))));
+                         event.target.substr(0, 40), names_that_exist(event.target, known_names({}))));
   }
   const Node& node = *target->second;
   const Result<Message> message = parse_message(*node.schema, event.message, where);
@@ -122,7 +123,7 @@ void NameResolver::resolve_event(const AttributeSchema& schema, const Event& eve
     for (const std::string& known : known_names({}))
       if (can_be_hidden(known)) inside.push_back(known);
     fail(error_at(where, "{}: \"{}\": {} holds nothing to be seen that is called \"{}\"{}", schema.name,
-                  event.message, event.target, name->substr(0, 40), did_you_mean(*name, inside)));
+                  event.message, event.target, name->substr(0, 40), names_that_exist(*name, inside)));
   }
 }
 
@@ -149,7 +150,7 @@ void NameResolver::resolve_override(Node& node) {
       else
         fail(error_at(at_name, "{} \"{}\" {} \"{}\"{}", schema.type, node.text(by),
                       attribute ? "keeps, once the scene is loaded, its" : "has no attribute",
-                      written.name.substr(0, 40), did_you_mean(written.name, known)));
+                      written.name.substr(0, 40), names_that_exist(written.name, known)));
       continue;
     }
     Result<AttributeValue> value = parse_value(*attribute, written.value, roots_, at_value);
