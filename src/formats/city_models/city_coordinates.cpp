@@ -44,11 +44,25 @@ bool names_longitude_first(const std::string& system) {
   return system.find("CRS84") != std::string::npos;  // OGC's own, which EPSG has no number for
 }
 
+/// Area in plan, in the file's own units; negative where the ring runs clockwise about its first two axes.
+double signed_area(std::span<const glm::dvec3> ring) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i)  // about the first: far coordinates would lose digits
+    twice += (ring[i].x - ring[0].x) * (ring[i + 1].y - ring[0].y) -
+             (ring[i + 1].x - ring[0].x) * (ring[i].y - ring[0].y);
+  return twice / 2.0;
+}
+
 }  // namespace
 
 void CoordinateClues::add(const glm::dvec3& point) {
   if (!std::isfinite(point.x + point.y + point.z)) return;
   low = glm::min(low, point), high = glm::max(high, point);
+}
+
+void CoordinateClues::add_roof(std::span<const glm::dvec3> ring) {
+  const double area = signed_area(ring);
+  if (std::isfinite(area)) roofs_up += area, roofs += std::abs(area);
 }
 
 Result<CityCoordinates> CityCoordinates::find(const CoordinateClues& clues, const std::filesystem::path& file,

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "base/result.h"
@@ -22,6 +23,8 @@ struct CoordinateClues {
   double roofs = 0.0, roofs_up = 0.0;
 
   void add(const glm::dvec3& point);
+  /// The outer ring of a roof, counterclockwise where it faces up in a file whose first axis points east.
+  void add_roof(std::span<const glm::dvec3> ring);
 };
 
 /// Turns the coordinates of one file into metres.

@@ -168,15 +168,6 @@ const std::vector<TVec3d>& points_of(const std::shared_ptr<citygml::LinearRing>&
   return ring ? ring->getVertices() : none;
 }
 
-/// Area in plan, in the file's own units; negative where the ring runs clockwise about its first two axes.
-double signed_area(const std::vector<TVec3d>& ring) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i + 1 < ring.size(); ++i)
-    twice += (ring[i].x - ring[0].x) * (ring[i + 1].y - ring[0].y) -
-             (ring[i + 1].x - ring[0].x) * (ring[i].y - ring[0].y);
-  return twice / 2.0;
-}
-
 /// What the coordinates of a file are like.
 class Clues {
  public:
@@ -201,10 +192,12 @@ class Clues {
   void add(const citygml::Geometry& geometry, bool is_roof) {
     is_roof = is_roof || geometry.getType() == citygml::Geometry::GeometryType::GT_Roof;
     for (unsigned i = 0; i < geometry.getPolygonsCount(); ++i) {
-      const std::vector<TVec3d>& ring = points_of(geometry.getPolygon(i)->exteriorRing());
-      for (const TVec3d& point : ring) clues_.add(vec(point));
-      const double area = is_roof ? signed_area(ring) : 0.0;
-      if (std::isfinite(area)) clues_.roofs_up += area, clues_.roofs += std::abs(area);
+      std::vector<glm::dvec3> ring;
+      for (const TVec3d& point : points_of(geometry.getPolygon(i)->exteriorRing())) {
+        ring.push_back(vec(point));
+        clues_.add(ring.back());
+      }
+      if (is_roof) clues_.add_roof(ring);
     }
     for (unsigned i = 0; i < geometry.getGeometriesCount(); ++i) add(geometry.getGeometry(i), is_roof);
   }

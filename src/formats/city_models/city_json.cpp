@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/checked.h"
@@ -14,7 +13,9 @@
 #include "formats/city_models/building_attributes.h"
 #include "formats/city_models/city_assembly.h"
 #include "formats/city_models/city_coordinates.h"
+#include "formats/city_models/city_json_clues.h"
 #include "formats/city_models/city_json_sequence.h"
+#include "formats/city_models/city_json_values.h"
 #include "formats/city_models/city_lod.h"
 #include "formats/city_models/city_semantics.h"
 #include "formats/readers/packed_file.h"
@@ -23,7 +24,6 @@
 namespace parvis::scene {
 namespace {
 
-using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr std::array versions{"0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "1.0", "1.1", "2.0"};
@@ -36,22 +36,6 @@ template <class... Args>
 [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) {
   throw Problem{fmt::format(format, std::forward<Args>(args)...)};
 }
-
-const Json& nothing() {
-  static const Json null;
-  return null;
-}
-
-const Json& member(const Json& object, const char* name) {
-  const auto found = object.is_object() ? object.find(name) : object.end();
-  return object.is_object() && found != object.end() ? *found : nothing();
-}
-
-const Json& element(const Json& list, std::size_t i) {
-  return list.is_array() && i < list.size() ? list[i] : nothing();
-}
-
-std::string text(const Json& value) { return value.is_string() ? value.get<std::string>() : ""; }
 
 bool is_known(const std::string& version) {
   return std::any_of(versions.begin(), versions.end(),
@@ -169,19 +153,18 @@ class Reader {
     }
     if (!member(json_, "vertices").is_array()) fail("there are no \"vertices\"");
     vertices_ = triples(json_["vertices"], "a vertex");
-    CoordinateClues clues;
+    for (glm::dvec3& vertex : vertices_) vertex = vertex * scale + translate;
+    const std::vector<bool> is_named = named_vertices(json_, vertices_.size());
+    CoordinateClues clues = coordinate_clues(json_, vertices_, is_named);
     clues.system = system_of(json_);
-    for (glm::dvec3& vertex : vertices_) {
-      vertex = vertex * scale + translate;
-      clues.add(vertex);
-    }
     const Result<CityCoordinates> coordinates = CityCoordinates::find(clues, file, warnings);
     if (!coordinates) fail("{}", coordinates.errors().front().message);
     place_deg_ = coordinates->place_deg();
     glm::dvec3 low(1e300), high(-1e300);
-    for (glm::dvec3& vertex : vertices_) {
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      glm::dvec3& vertex = vertices_[i];
       vertex = (*coordinates)(vertex);
-      if (!std::isfinite(vertex.x + vertex.y)) continue;
+      if (!is_named[i] || !std::isfinite(vertex.x + vertex.y)) continue;
       low = glm::min(low, vertex), high = glm::max(high, vertex);
     }
     if (!(low.x <= high.x)) return glm::dvec3(0.0);
@@ -355,24 +338,19 @@ class Reader {
   }
 
   void read_boundaries(const Json& geometry, const Corners& corners) {
-    const std::string type = text(member(geometry, "type"));
-    const Json &boundaries = member(geometry, "boundaries"), &semantics = member(geometry, "semantics");
+    geometry_ = &geometry;
+    const Json& semantics = member(geometry, "semantics");
     const Json& appearance = member(json_, "appearance");
-    is_solid_ = type.find("Solid") != std::string::npos;
+    is_solid_ = is_solid(geometry);
     const bool has_list = semantics.is_array();
     has_listed_kinds_ = has_listed_kinds_ || has_list;
     const Attached attached{
         has_list ? &semantics : &told(semantics),
         &themed(member(geometry, "material"), member(appearance, "default-theme-material")),
         &themed(member(geometry, "texture"), member(appearance, "default-theme-texture"))};
-    surfaces_ = &member(semantics, "surfaces");
-    if (type == "MultiSurface" || type == "CompositeSurface")
-      read_surfaces(boundaries, attached, corners);
-    else if (type == "Solid")  // inner shells are cavities: nobody sees them
-      read_surfaces(element(boundaries, 0), attached.at(0), corners);
-    else if (type == "MultiSolid" || type == "CompositeSolid")
-      for (std::size_t i = 0; i < boundaries.size(); ++i)
-        read_surfaces(element(element(boundaries, i), 0), attached.at(i).at(0), corners);
+    each_shell(geometry, attached, [&](const Json& surfaces, const Attached& of_shell) {
+      read_surfaces(surfaces, of_shell, corners);
+    });
   }
 
   /// The kind of each surface; nothing where the file gives one kind to all surfaces of a solid, which has
@@ -413,12 +391,6 @@ class Reader {
 
   // --- surfaces
 
-  std::string semantics_of(const Json& value) const {
-    if (value.is_object()) return text(member(value, "type"));
-    if (!value.is_number_unsigned()) return "";
-    return text(member(element(*surfaces_, value.get<std::size_t>()), "type"));
-  }
-
   std::size_t index(const Json& value, std::size_t count, const char* what) const {
     if (!value.is_number_unsigned() || value.get<std::size_t>() >= count)
       fail("object \"{}\": {} {} is out of range; there are {}", object_.name, what, value.dump(), count);
@@ -428,7 +400,7 @@ class Reader {
   void read_surface(const Json& surface, const Attached& attached, const Corners& corners) {
     if (!surface.is_array()) fail("object \"{}\": a surface is no list of rings", object_.name);
     CitySurface polygon;
-    polygon.semantics = semantics_of(*attached.semantics);
+    polygon.semantics = semantics_of(*geometry_, *attached.semantics);
     polygon.is_of_solid = is_solid_;
     if (attached.material->is_number())
       polygon.material = materials_[index(*attached.material, materials_.size(), "material")];
@@ -492,7 +464,7 @@ class Reader {
   CityObject object_;  ///< that is being read
   std::vector<CitySurface> surfaces_of_object_;
   std::set<std::vector<std::array<double, 3>>> known_rings_;  ///< of that object
-  const Json* surfaces_ = nullptr;
+  const Json* geometry_ = nullptr;                            ///< that is being read
   bool is_solid_ = false;
   bool has_listed_kinds_ = false;  ///< of that object
 };
