@@ -45,8 +45,9 @@ std::vector<float> safe_speeds(const scene::MeasuredPath& path, float limit, flo
   std::vector<float> speeds(count);
   for (std::size_t i = 0; i < count; ++i) {
     const float along = std::min(float(i), path.length());
-    const glm::vec3 before = path.direction_at(std::max(along - reach_m, 0.0f));
-    const glm::vec3 after = path.direction_at(std::min(along + reach_m, path.length()));
+    const glm::vec2 before = glm::normalize(glm::vec2(path.direction_at(std::max(along - reach_m, 0.0f))));
+    const glm::vec2 after =
+        glm::normalize(glm::vec2(path.direction_at(std::min(along + reach_m, path.length()))));
     const float turn = std::acos(std::clamp(glm::dot(before, after), -1.0f, 1.0f));
     const float curve_speed = std::sqrt(lateral_acceleration * 2.0f * reach_m / std::max(turn, 1e-3f));
     speeds[i] = std::clamp(curve_speed, std::min(slowest, limit), limit);
@@ -168,7 +169,7 @@ std::vector<DrivingLane> driving_lanes(const scene::RoadGraph& roads, const std:
   std::vector<DrivingLane> lanes(cut.roads.lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const scene::Lane& lane = cut.roads.lanes[i];
-    lanes[i].path = scene::MeasuredPath(scene::without_repeats(lane.points));
+    lanes[i].path = scene::MeasuredPath::in_plan(scene::without_repeats(lane.points));
     lanes[i].next = lane.next;
     lanes[i].is_usable = true;
     lanes[i].safe_speeds = safe_speeds(lanes[i].path, lane.speed_limit, comfortable_braking);

@@ -9,7 +9,7 @@ CutStreets cut_streets(const scene::RoadGraph& roads, float end_m) {
   for (const scene::Lane& lane : roads.lanes)
     cut.parts.push_back(lane.crossing >= 0 ? LanePart::turn : LanePart::street);
   for (std::size_t i = 0; i < roads.lanes.size(); ++i) {
-    const scene::MeasuredPath path(roads.lanes[i].points);
+    const scene::MeasuredPath path = scene::MeasuredPath::in_plan(roads.lanes[i].points);
     if (cut.parts[i] == LanePart::turn || path.length() < 6.0f * end_m) continue;
     scene::Lane middle = roads.lanes[i], last = roads.lanes[i];
     const int first_new = int(cut.roads.lanes.size());

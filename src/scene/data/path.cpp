@@ -51,6 +51,14 @@ MeasuredPath::MeasuredPath(Path points) : points_(std::move(points)) {
     distances_[i] = distances_[i - 1] + glm::distance(points_[i - 1], points_[i]);
 }
 
+MeasuredPath MeasuredPath::in_plan(Path points) {
+  MeasuredPath path(std::move(points));
+  for (std::size_t i = 1; i < path.points_.size(); ++i)
+    path.distances_[i] =
+        path.distances_[i - 1] + glm::distance(glm::vec2(path.points_[i - 1]), glm::vec2(path.points_[i]));
+  return path;
+}
+
 std::size_t MeasuredPath::segment_at(float distance) const {
   const auto after = std::upper_bound(distances_.begin() + 1, distances_.end() - 1, distance);
   return std::size_t(after - distances_.begin()) - 1;
@@ -70,9 +78,15 @@ glm::vec3 MeasuredPath::direction_at(float distance) const {
 Path MeasuredPath::part(float from, float to) const {
   assert(from < to);
   Path result{at(from)};
+  // Distances are finer than floats know points many kilometres from the origin: these may coincide.
+  const auto is_last = [&](const glm::vec3& point) {
+    return glm::distance(glm::vec2(result.back()), glm::vec2(point)) <= same_point_m;
+  };
   for (std::size_t i = segment_at(from); i < points_.size() && distances_[i] < to - same_point_m; ++i)
-    if (distances_[i] > from + same_point_m) result.push_back(points_[i]);
-  result.push_back(at(to));
+    if (distances_[i] > from + same_point_m && !is_last(points_[i])) result.push_back(points_[i]);
+  const glm::vec3 end = at(to);
+  if (result.size() > 1 && is_last(end)) result.pop_back();
+  result.push_back(end);
   return result;
 }
 

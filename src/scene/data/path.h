@@ -1,5 +1,6 @@
 // Polylines on the ground: points and sections along them, parallels, and curves that vehicles can follow.
-// Lengths are 3D arc lengths; directions and offsets are in plan (seen from above).
+// Lengths are 3D arc lengths but where they are said to be in plan; directions and offsets are in plan (seen
+// from above).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -16,6 +17,8 @@ class MeasuredPath {
  public:
   MeasuredPath() = default;
   explicit MeasuredPath(Path points);
+  /// The same whose lengths are those in plan: heights of its points change none of them.
+  static MeasuredPath in_plan(Path points);
 
   const Path& points() const { return points_; }  ///< as given
   /// Arc length, metres; 0 without points.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/house.h"
+#include "base/known_names.h"
 #include "base/memory_budget.h"
 #include "formats/terrain/open_rooms.h"
 #include "scene/data/model_parts.h"
@@ -113,7 +114,7 @@ void build_streets(const Node& node, SceneBuilder& builder) {
   const auto object = std::ranges::find(builder.scene.objects, name, &Object::name);
   if (object == builder.scene.objects.end())
     return builder.fail(error_at(node.where_of("of"), "no model called \"{}\" stands before this node{}",
-                                 name, scene::object_names(builder.scene)));
+                                 name, names_that_exist(name, scene::object_names(builder.scene))));
   if (!object->model->roads.empty()) {
     if (node.flag("paving")) builder.scene.data<Paving>().is_laid = true;
     return add_given_roads(*object, builder);
@@ -126,8 +127,8 @@ void build_streets(const Node& node, SceneBuilder& builder) {
       add_road_polygons(*object, std::get<std::string>(attribute.value), polygons);
   const std::vector<Road> roads = roads_from_polygons(polygons);
   if (polygons.empty())
-    builder.warn(error_at(node.where_of("of"), "streets: no part of \"{}\" matches target; it has {}", name,
-                          part_names(*object->model)));
+    builder.warn(error_at(node.where_of("of"), "streets: no part of \"{}\" matches target{}", name,
+                          names_that_exist(node.text("target"), part_names(*object->model))));
   else if (roads.empty())
     builder.warn(
         error_at(node.where_of("of"),
@@ -156,8 +157,8 @@ NodeSchema paving_schema() {
 
 void build_paving(const Node&, SceneBuilder& builder) { builder.scene.data<Paving>().is_laid = true; }
 
-/// Makes lanes of the roads, on the ground. Where the script asks for carriageways, terrain is cut and filled
-/// for them first.
+/// Makes lanes of the roads, on the ground. Where the script asks for carriageways, terrain is then cut and
+/// filled for them, and they follow it; in plan they stay as they are, and so does traffic.
 void finish_roads(SceneBuilder& builder) {
   std::vector<Road> roads;
   for (const PlannedRoad& planned : builder.scene.items<PlannedRoad>()) roads.push_back(planned.road);
@@ -165,14 +166,15 @@ void finish_roads(SceneBuilder& builder) {
   if (!graph) return builder.fail(graph.errors());
   builder.scene.roads = *std::move(graph);
   if (!builder.errors().empty()) return;
-  if (!builder.scene.data<Paving>().is_laid) return lay_lanes(builder.scene);
+  lay_lanes(builder.scene);
+  if (!builder.scene.data<Paving>().is_laid) return;
   const Status enough = check_memory(paving_bytes(builder.scene.roads),
                                      fmt::format("paving {} lanes", builder.scene.roads.lanes.size()));
   const FileLocation where = roads.empty() ? FileLocation{} : roads.front().where;
   if (!enough) return builder.fail(enough.errors(), where);
   if (const Status shaped = shape_terrain(builder.scene, roads); !shaped)
     builder.warn({shaped.errors().front().message + "; it is neither cut nor filled", where});
-  pave(builder.scene);
+  pave_laid_lanes(builder.scene);
 }
 
 }  // namespace

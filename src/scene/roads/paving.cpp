@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "formats/terrain/ground_heights.h"
 #include "scene/data/path.h"
+#include "scene/roads/asphalt_cover.h"
 #include "scene/roads/opposite_lanes.h"
 #include "scene/roads/tiling_noise.h"
 
@@ -149,22 +151,8 @@ void leave_out_needless_points(std::vector<Row>& rows) {
   }
 }
 
-/// A ribbon along `line` from `left_m` to `right_m` beside it (to the right positive), lying `lift` over the
-/// ground, with as few triangles as the ground allows.
-void add_ribbon(Mesh& mesh, const Path& line, float left_m, float right_m, const GroundHeights& ground,
-                float lift) {
-  const std::uint32_t strips = std::uint32_t(std::max(1.0f, std::ceil((right_m - left_m) / step_m)));
-  std::vector<Row> rows;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const glm::vec3 before = line[i > 0 ? i - 1 : 0], after = line[std::min(i + 1, line.size() - 1)];
-    const glm::vec3 right = right_of(after - before);
-    Row& row = rows.emplace_back();
-    for (std::uint32_t k = 0; k <= strips; ++k) {
-      glm::vec3 p = line[i] + right * glm::mix(left_m, right_m, float(k) / float(strips));
-      p.z = ground.beside_lane(glm::vec2(p), line[i].z) + lift;
-      row.push_back(p);
-    }
-  }
+/// Adds the triangles between rows, as few as the rows allow.
+void add_rows(Mesh& mesh, std::vector<Row> rows) {
   leave_out_needless_points(rows);
   rows = without_needless_rows(rows);
   const std::uint32_t first = std::uint32_t(mesh.positions.size()),
@@ -177,6 +165,40 @@ void add_ribbon(Mesh& mesh, const Path& line, float left_m, float right_m, const
       mesh.indices.insert(mesh.indices.end(),
                           {near_left, near_left + 1, far_left, near_left + 1, far_left + 1, far_left});
     }
+}
+
+/// Rows of a ribbon along `line` from `left_m` to `right_m` beside it (to the right positive), lying `lift`
+/// over the ground.
+std::vector<Row> ribbon(const Path& line, float left_m, float right_m, const GroundHeights& ground,
+                        float lift) {
+  const std::uint32_t strips = std::uint32_t(std::max(1.0f, std::ceil((right_m - left_m) / step_m)));
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const glm::vec3 before = line[i > 0 ? i - 1 : 0], after = line[std::min(i + 1, line.size() - 1)];
+    const glm::vec3 right = right_of(after - before);
+    Row& row = rows.emplace_back();
+    for (std::uint32_t k = 0; k <= strips; ++k) {
+      glm::vec3 p = line[i] + right * glm::mix(left_m, right_m, float(k) / float(strips));
+      p.z = ground.beside_lane(glm::vec2(p), line[i].z) + lift;
+      row.push_back(p);
+    }
+  }
+  return rows;
+}
+
+/// Adds what is to be seen of a ribbon: not the pieces that asphalt of other strips than `own` hides.
+void add_seen(Mesh& mesh, const std::vector<Row>& rows, const AsphaltCover& asphalt, std::uint32_t own) {
+  std::vector<Row> seen;
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
+    const Row &near = rows[i], &far = rows[i + 1];
+    if (!asphalt.hides(own, near.front(), near.back(), far.front(), far.back())) {
+      if (seen.empty()) seen.push_back(near);
+      seen.push_back(far);
+    } else if (!seen.empty()) {
+      add_rows(mesh, std::exchange(seen, {}));
+    }
+  }
+  if (!seen.empty()) add_rows(mesh, std::move(seen));
 }
 
 /// The lane's points at every metre or nearer, on the ground.
@@ -202,13 +224,14 @@ void add_markings(Mesh& mesh, const Lane& lane, const Path& line, bool is_innerm
        from += dash_m + dash_gap_m) {
     const glm::vec3 direction = path.direction_at(from);
     if (direction.x > 0.0f || (direction.x == 0.0f && direction.y > 0.0f))
-      add_ribbon(mesh, path.part(from, from + dash_m), left_m - dash_half_width_m, left_m + dash_half_width_m,
-                 ground, lift);
+      add_rows(mesh, ribbon(path.part(from, from + dash_m), left_m - dash_half_width_m,
+                            left_m + dash_half_width_m, ground, lift));
   }
   const bool waits_at_end = lane.next.size() > 1 && path.length() > 6.0f;
   const float stop_m = path.length() - 2.0f * line_half_width_m;
   if (waits_at_end)
-    add_ribbon(mesh, path.part(stop_m, path.length()), left_m + 0.15f, 0.5f * lane.width_m, ground, lift);
+    add_rows(mesh,
+             ribbon(path.part(stop_m, path.length()), left_m + 0.15f, 0.5f * lane.width_m, ground, lift));
 }
 
 /// Lanes that lie on the ground as they are stay as they are: their length is what traffic counts by.
@@ -221,6 +244,18 @@ void lay(RoadGraph& roads, const GroundHeights& ground) {
       const float at_m = own.length() * float(i) / float(on_ground.size() - 1);
       lies = std::abs(own.at(at_m).z - on_ground[i].z) < lies_m;
     }
+    if (!lies) lane.points = std::move(on_ground);
+  }
+}
+
+/// Moves lanes up or down to ground that has changed below them.
+void follow(RoadGraph& roads, const GroundHeights& ground) {
+  for (Lane& lane : roads.lanes) {
+    Path on_ground = lane.points;
+    for (glm::vec3& p : on_ground) p.z = ground.beside_lane(glm::vec2(p), p.z);
+    const bool lies = std::ranges::equal(lane.points, on_ground, [](const glm::vec3& a, const glm::vec3& b) {
+      return std::abs(a.z - b.z) < lies_m;
+    });
     if (!lies) lane.points = std::move(on_ground);
   }
 }
@@ -244,23 +279,33 @@ std::uint64_t paving_bytes(const RoadGraph& roads) {
 }
 
 void pave(Scene& scene) {
+  lay_lanes(scene);
+  pave_laid_lanes(scene);
+}
+
+void pave_laid_lanes(Scene& scene) {
   if (scene.roads.empty()) return;
   const GroundHeights ground(scene, reach_m);
-  lay(scene.roads, ground);
+  follow(scene.roads, ground);
   const OppositeLanes opposite(scene.roads);
   auto model = std::make_shared<Model>(empty_paving());
-  for (const Lane& lane : scene.roads.lanes) {
-    const Path line = laid(lane.points, ground);
-    const float half_m = 0.5f * lane.width_m + margin_m;
-    const auto add = [&](Layer layer, float beside_m, float lift_m) {
-      add_ribbon(model->parts[layer].mesh, line, -half_m - beside_m, half_m + beside_m, ground, lift_m);
+  std::vector<AsphaltStrip> strips;
+  strips.reserve(scene.roads.lanes.size());
+  for (const Lane& lane : scene.roads.lanes)
+    strips.push_back({laid(lane.points, ground), 0.5f * lane.width_m + margin_m});
+  const AsphaltCover cover(strips);
+  for (std::uint32_t i = 0; i < strips.size(); ++i) {
+    const Lane& lane = scene.roads.lanes[i];
+    const auto& [line, half_m] = strips[i];
+    const auto rows = [&, &line = line, half_m = half_m](float beside_m, float lift_m) {
+      return ribbon(line, -half_m - beside_m, half_m + beside_m, ground, lift_m);
     };
     const bool is_street = lane.speed_limit >= aisle_m_s;
     if (is_street && lane.speed_limit <= fast_m_s) {
-      add(pavement, pavement_m, pavement_lift_m);
-      add(kerb, kerb_m, kerb_lift_m);
+      add_seen(model->parts[pavement].mesh, rows(pavement_m, pavement_lift_m), cover, i);
+      add_seen(model->parts[kerb].mesh, rows(kerb_m, kerb_lift_m), cover, i);
     }
-    add(asphalt, 0.0f, asphalt_lift_m);
+    add_rows(model->parts[asphalt].mesh, rows(0.0f, asphalt_lift_m));
     if (is_street && lane.crossing < 0)
       add_markings(model->parts[paint].mesh, lane, line, opposite.has(lane), ground);
   }

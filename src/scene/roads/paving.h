@@ -16,9 +16,13 @@ void lay_lanes(Scene& scene);
 /// The same, and appends an object "paving" that shows the lanes: asphalt as wide as they are, dashes between
 /// opposite lanes, lines where vehicles wait before crossings, pavements with kerbs. Roads for less than 25
 /// km/h (driveways, aisles of car parks, shared streets) have neither pavements nor dashes, roads for more
-/// than 80 km/h no pavements. Lanes are raised by the height of the asphalt; else they are those of
-/// `lay_lanes`, so traffic does the same with paving and without. A scene without roads stays as it is.
+/// than 80 km/h no pavements. In plan lanes are those of `lay_lanes`, so that traffic does the same with
+/// paving and without; they are raised by the height of the asphalt. A scene without roads stays as it is.
 void pave(Scene& scene);
+
+/// The same for lanes that `lay_lanes` has laid on ground which was shaped for them since: they follow it in
+/// height alone.
+void pave_laid_lanes(Scene& scene);
 
 /// Bytes that the carriageways of these lanes take at most, to be asked before `pave`.
 std::uint64_t paving_bytes(const RoadGraph& roads);

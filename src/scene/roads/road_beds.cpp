@@ -109,6 +109,23 @@ void add_samples(const std::vector<glm::vec3>& path, std::vector<Sample>& sample
   }
 }
 
+/// Adds the places at both edges of the bed, for each of the samples from `first` on. Returns the index of
+/// the first of them: the edges of sample k are 2 (k - first) and one more beyond it.
+std::size_t add_edges(std::size_t first, float half_m, std::vector<Sample>& samples) {
+  const std::size_t end = samples.size();
+  for (std::size_t k = first; k < end; ++k) {
+    const glm::vec3 along =
+        samples[std::min(k + 1, end - 1)].position - samples[k > first ? k - 1 : first].position;
+    const bool has_direction = glm::length(glm::vec2(along)) > 0.0f;
+    const glm::vec3 aside = has_direction ? half_m * right_of(along) : glm::vec3(0.0f);
+    for (const float side : {-1.0f, 1.0f}) samples.push_back({samples[k].position + side * aside});
+  }
+  return end;
+}
+
+/// Whether the ground lies so far below other ground that nothing of it is to be cut.
+bool is_below_cover(const Sample& sample) { return sample.terrain_m < sample.other_m - below_cover_m; }
+
 /// Trenches are dug through generated ground however deep they are: nothing covers them.
 RoadBed::Point bed_of(const Sample& sample, Terrain terrain) {
   const glm::vec2 place(sample.position);
@@ -150,11 +167,18 @@ bool has_ground(const Scene& scene, const Object& object) {
 }
 
 std::vector<RoadBed> road_beds(const Scene& scene, std::span<const Road> roads, Terrain terrain) {
+  struct OfRoad {
+    std::size_t first, end, first_edge;  // of its samples
+  };
   std::vector<Sample> samples;
-  std::vector<std::size_t> first_of_road;
-  first_of_road.reserve(roads.size() + 1);
-  for (const Road& road : roads) first_of_road.push_back(samples.size()), add_samples(road.path, samples);
-  first_of_road.push_back(samples.size());
+  std::vector<OfRoad> of_roads;
+  of_roads.reserve(roads.size());
+  for (const Road& road : roads) {
+    const std::size_t first = samples.size();
+    add_samples(road.path, samples);
+    const std::size_t end = samples.size();
+    of_roads.push_back({first, end, add_edges(first, half_bed_m(road), samples)});
+  }
 
   Samples by_cell(samples);
   for (const Object& object : scene.objects) {
@@ -177,8 +201,21 @@ std::vector<RoadBed> road_beds(const Scene& scene, std::span<const Road> roads, 
   for (std::size_t i = 0; i < roads.size(); ++i) {
     RoadBed& bed = beds.emplace_back();
     bed.half_m = half_bed_m(roads[i]);
-    for (std::size_t k = first_of_road[i]; k < first_of_road[i + 1]; ++k)
-      bed.points.push_back(bed_of(samples[k], terrain));
+    const auto& [first, end, first_edge] = of_roads[i];
+    for (std::size_t k = first; k < end; ++k) bed.points.push_back(bed_of(samples[k], terrain));
+    // Generated ground was made for the ground above it, and follows it from below: where it lies deep across
+    // the whole bed nothing is cut, but between such a place and one that is cut it may rise.
+    const std::vector<RoadBed::Point> alone = bed.points;
+    const auto is_deep = [&](std::size_t k) {
+      const std::size_t edge = first_edge + 2 * k;
+      return terrain == Terrain::generated && is_below_cover(samples[first + k]) &&
+             is_below_cover(samples[edge]) && is_below_cover(samples[edge + 1]);
+    };
+    const auto stays_cut = [&](std::size_t k) {
+      return k < alone.size() && alone[k].kind == Bed::cut && !is_deep(k);
+    };
+    for (std::size_t k = 0; k < alone.size(); ++k)
+      if (is_deep(k) && !stays_cut(k - 1) && !stays_cut(k + 1)) bed.points[k].kind = Bed::none;
   }
   return beds;
 }

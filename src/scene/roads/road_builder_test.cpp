@@ -52,6 +52,17 @@ std::size_t count_turns(const RoadGraph& graph) {
   return std::size_t(std::ranges::count_if(graph.lanes, [](const Lane& lane) { return lane.crossing >= 0; }));
 }
 
+TEST(MeasuredPath, PartsFarFromTheOriginRepeatNoPoint) {
+  // Floats know 40 km to 4 mm: the end of the part is the point before it, in numbers.
+  const MeasuredPath path({{40000, 0, 0}, {40003, 0, 0}, {40003.00390625f, 0, 0}, {40010, 0, 0}});
+  for (const float to : {3.0015f, 3.005f, 6.0f}) {
+    const Path part = path.part(0.0f, to);
+    ASSERT_GE(part.size(), 2u);
+    EXPECT_EQ(part.size(), without_repeats(part).size()) << to;
+    EXPECT_EQ(part.back(), path.at(to));
+  }
+}
+
 TEST(RoadBuilder, TrafficKeepsRight) {
   const RoadGraph graph = built({road({{0, 0, 0}, {100, 0, 0}})});
   for (const Lane& lane : graph.lanes) {

@@ -289,6 +289,21 @@ TEST(ShapedTerrain, GeneratedGroundStaysBelowWhatWasSurveyed) {
     EXPECT_LT(*height_of(mesh_of(scene, below), {0.5f, y}), *height_of(mesh_of(scene, hill), {0.5f, y})) << y;
 }
 
+TEST(ShapedTerrain, GeneratedGroundIsNotBentWhereItLeavesLevelGroundThatCoversIt) {
+  for (const float depth_m : {0.4f, 0.1f}) {
+    Scene scene;
+    add_part(scene, quad({-80, -60, 0}, {0, -60, 0}, {0, 60, 0}, {-80, 60, 0}), "LandUse");
+    const float z = -depth_m;
+    add_part(scene, quad({-80, -60, z}, {-3, -60, z}, {-3, 60, z}, {-80, 60, z}), "TINRelief near");
+    const auto rim = std::size_t(
+        add_part(scene, quad({-3, -60, -0.008f}, {80, -60, -0.008f}, {80, 60, -0.008f}, {-3, 60, -0.008f}),
+                 "TINRelief near"));
+    ASSERT_TRUE(shape_terrain(scene, street(-70, 2)));
+    const bool is_even = mesh_of(scene, rim).indices.size() == 6u;
+    EXPECT_EQ(is_even, depth_m == 0.4f) << "control: ground just below the cover is cut";
+  }
+}
+
 TEST(ShapedTerrain, GeneratedGroundDoesNotRiseThroughATrenchButCoversATunnel) {
   for (const bool is_tunnel : {false, true}) {
     Scene scene;
