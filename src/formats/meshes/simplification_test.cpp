@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <set>
 
 namespace parvis::scene {
 namespace {
@@ -56,6 +58,57 @@ TEST(Simplification, KeepsTheShapeWithinItsErrorAndTheVerticesAsTheyWere) {
     largest = std::max(largest, std::abs(middle.z - wave(glm::vec2(middle))));
   }
   EXPECT_LT(largest, 0.008f);
+}
+
+/// A round cap in two meshes, left and right of x = 0.5, that share the points between them.
+std::array<Mesh, 2> divided_cap() {
+  const Mesh whole = sheet(30, [](glm::vec2 p) { return -0.2f * glm::dot(p - 0.5f, p - 0.5f); });
+  std::array<Mesh, 2> halves{whole, whole};
+  for (Mesh& half : halves) half.indices.clear();
+  for (std::size_t i = 0; i < whole.indices.size(); i += 3) {
+    float x = 0.0f;
+    for (std::size_t k = 0; k < 3; ++k) x += whole.positions[whole.indices[i + k]].x / 3.0f;
+    std::vector<std::uint32_t>& indices = halves[x < 0.5f ? 0 : 1].indices;
+    indices.insert(indices.end(), whole.indices.begin() + std::ptrdiff_t(i),
+                   whole.indices.begin() + std::ptrdiff_t(i) + 3);
+  }
+  return halves;
+}
+
+/// The points of a mesh on the line between the halves.
+std::set<std::array<float, 3>> points_between(const Mesh& mesh) {
+  std::set<std::array<float, 3>> points;
+  for (const std::uint32_t i : mesh.indices)
+    if (const glm::vec3 p = mesh.positions[i]; p.x == 0.5f) points.insert({p.x, p.y, p.z});
+  return points;
+}
+
+TEST(Simplification, MeshesThatTouchStillDoWithFewerPointsBetweenThem) {
+  std::array<Mesh, 2> together = divided_cap(), alone = divided_cap();
+  const std::size_t points_before = points_between(together[0]).size();
+  simplify_together(std::array{&together[0], &together[1]}, 0.002f, 45.0f);
+  for (Mesh& half : alone) half = simplified(half, 0.002f);
+  for (const Mesh& half : together) EXPECT_TRUE(check(half, "half"));
+  EXPECT_EQ(points_between(together[0]), points_between(together[1])) << "else there were a crack";
+  EXPECT_LT(points_between(together[0]).size(), points_before / 2);
+  EXPECT_EQ(points_between(alone[0]).size(), points_before) << "control: alone, a rim is left as it is";
+  EXPECT_LT(together[0].triangle_count(), alone[0].triangle_count());
+}
+
+TEST(Simplification, VerticesOfFlatFacesBecomeOneUpToACrease) {
+  for (const bool is_creased : {false, true}) {
+    Mesh roof;  // two squares of vertices of their own, with a ridge between them
+    const float z = is_creased ? 1.0f : 0.1f;
+    roof.positions = {{0, 0, 0}, {1, 0, z}, {1, 1, z}, {0, 1, 0}, {1, 0, z}, {2, 0, 0}, {2, 1, 0}, {1, 1, z}};
+    roof.indices = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
+    fill_normals(roof);
+    simplify_together(std::array{&roof}, 1e-4f, 45.0f);
+    EXPECT_EQ(roof.positions.size(), is_creased ? 8u : 6u);
+    for (std::size_t i = 0; i < roof.positions.size(); ++i)
+      if (roof.positions[i].x == 1.0f && !is_creased) {
+        EXPECT_NEAR(roof.normals[i].z, 1.0f, 1e-5f) << "the mean";
+      }
+  }
 }
 
 TEST(Simplification, LeavesMeshesWithoutExtentAsTheyAre) {

@@ -64,7 +64,9 @@ Mesh finished(Mesh mesh) {
 Mesh tyre(const WheelShape& shape) {
   const float half = 0.5f * shape.width_m, r = shape.radius_m, rim = shape.rim_radius_m;
   const float shoulder = 0.25f * (r - rim);
-  const ProfilePoint profile[] = {{rim, -0.80f * half},
+  const ProfilePoint plain[] = {{rim, -0.80f * half}, {r - 2 * shoulder, -half}, {r, -0.75f * half},
+                                {r, 0.75f * half},    {r - 2 * shoulder, half},  {rim, 0.80f * half}};
+  const ProfilePoint rounded[] = {{rim, -0.80f * half},
                                   {rim + shoulder, -half},
                                   {r - 2 * shoulder, -half},
                                   {r - 0.6f * shoulder, -0.94f * half},
@@ -77,7 +79,8 @@ Mesh tyre(const WheelShape& shape) {
                                   {rim + shoulder, half},
                                   {rim, 0.80f * half}};
   Mesh mesh;
-  add_turned(mesh, profile, std::uint32_t(shape.segments));
+  add_turned(mesh, shape.has_round_shoulders ? std::span<const ProfilePoint>(rounded) : plain,
+             std::uint32_t(shape.segments));
   return finished(std::move(mesh));
 }
 

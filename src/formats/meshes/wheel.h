@@ -10,7 +10,8 @@ struct WheelShape {
   float width_m = 0.20f;
   float rim_radius_m = 0.21f;
   int spokes = 5;
-  int segments = 48;  ///< of a circle
+  int segments = 48;                ///< of a circle
+  bool has_round_shoulders = true;  ///< of the tyre; else its profile has half as many points
 };
 
 /// About the origin; turns about y; the outer side looks to +y (left). One part "tyre", one "rim".
