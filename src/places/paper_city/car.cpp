@@ -143,7 +143,7 @@ void add_wheels(scene::Model& model, const CarShape& shape) {
   scene::WheelShape form;
   form.radius_m = shape.wheel_radius, form.width_m = shape.wheel_width,
   form.rim_radius_m = 0.66f * shape.wheel_radius;
-  form.segments = 28;
+  form.segments = shape.wheel_segments, form.has_round_shoulders = shape.has_round_tyre_shoulders;
   const scene::Model wheel = scene::make_wheel(form);
   struct Place {
     const char* name;

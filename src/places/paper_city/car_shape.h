@@ -36,6 +36,8 @@ struct CarShape {
   float front_axle_x = 1.3f, rear_axle_x = -1.3f;
   float wheel_radius = 0.32f, wheel_width = 0.2f, half_track = 0.77f;
   float arch_radius = 0.38f;
+  int wheel_segments = 28;                                    ///< round a tyre and a rim
+  bool has_round_tyre_shoulders = true;                       ///< else tyres have half as many triangles
   glm::vec3 mirror{0.0f}, mirror_radii{0.1f, 0.11f, 0.075f};  ///< of the left one
   float plate_height = 0.45f;
 };
