@@ -30,23 +30,31 @@ Bounds bounds_of(const scene::RoadGraph& roads) {
   return bounds;
 }
 
-scene::GroundGrid grid_of(const scene::RoadGraph& roads) {
-  const Bounds bounds = bounds_of(roads);
-  if (bounds.empty()) return {};
-  const vec2 origin = vec2(bounds.min) - reach_m, size = vec2(bounds.size()) + 2.0f * reach_m;
-  const glm::ivec2 cells(glm::ceil(size / cell_m));
+scene::GroundGrid grid_of(const scene::RoadGraph& roads, const Bounds& area) {
+  const Bounds lanes = bounds_of(roads);
+  const vec2 origin = glm::max(vec2(lanes.min) - reach_m, vec2(area.min)),
+             end = glm::min(vec2(lanes.max) + reach_m, vec2(area.max));
+  if (lanes.empty() || !glm::all(glm::lessThan(origin, end))) return {};
+  const glm::ivec2 cells(glm::ceil((end - origin) / cell_m));
   return {cells.x, cells.y, cell_m, origin};
 }
 
 }  // namespace
 
-std::uint64_t FreeGround::bytes(const scene::RoadGraph& roads) {
-  const scene::GroundGrid grid = grid_of(roads);
+Bounds FreeGround::everywhere() {
+  constexpr float endless = std::numeric_limits<float>::infinity();
+  Bounds bounds;
+  bounds.min = vec3(-endless), bounds.max = vec3(endless);
+  return bounds;
+}
+
+std::uint64_t FreeGround::bytes(const scene::RoadGraph& roads, const Bounds& area) {
+  const scene::GroundGrid grid = grid_of(roads, area);
   return std::uint64_t(grid.width) * std::uint64_t(grid.height);
 }
 
-FreeGround::FreeGround(const scene::Scene& scene)
-    : heights_(scene, reach_m), taken_(grid_of(scene.roads), 0) {
+FreeGround::FreeGround(const scene::Scene& scene, const Bounds& area)
+    : heights_(scene, reach_m), taken_(grid_of(scene.roads, area), 0) {
   const Bounds lanes = bounds_of(scene.roads);
   lowest_m_ = lanes.min.z - ground_from_lane_m + low_m;
   highest_m_ = lanes.max.z + ground_from_lane_m + high_m;
@@ -73,7 +81,8 @@ void FreeGround::take(vec2 point, float radius_m) { mark(point, radius_m, thing_
 
 bool FreeGround::is_free(vec2 point, float radius_m, float from_lanes_m) const {
   const float reach = std::max(radius_m, from_lanes_m);
-  const glm::ivec2 first = taken_.cell_at(point - reach), last = taken_.cell_at(point + reach);
+  const glm::ivec2 first = taken_.cell_at(point - reach), last = taken_.cell_at(point + reach),
+                   own = taken_.cell_at(point);
   if (!taken_.contains(first.x, first.y) || !taken_.contains(last.x, last.y)) return false;
   for (int y = first.y; y <= last.y; ++y)
     for (int x = first.x; x <= last.x; ++x) {
@@ -81,7 +90,7 @@ bool FreeGround::is_free(vec2 point, float radius_m, float from_lanes_m) const {
       if (taken == 0) continue;
       // A carriageway is known to half a cell, by the middles of cells; a thing is anywhere in its cell.
       const vec2 middle = taken_.centre_of({x, y}), half(0.5f * taken_.cell_m);
-      const bool is_own = glm::all(glm::lessThanEqual(glm::abs(middle - point), half));
+      const bool is_own = glm::ivec2(x, y) == own;
       if ((taken & lane_bit) != 0 && from_lanes_m > 0.0f &&
           (is_own || glm::distance(middle, point) < from_lanes_m))
         return false;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "base/bounds.h"
 #include "formats/terrain/ground_heights.h"
 #include "formats/terrain/ground_raster.h"
 #include "scene/data/scene.h"
@@ -12,12 +13,14 @@ namespace parvis::kerbside {
 /// A plan of what is taken: carriageways, walls, and whatever else stands on the ground.
 class FreeGround {
  public:
-  /// What the plan takes in memory: a byte for each cell between the outermost lanes.
-  static std::uint64_t bytes(const scene::RoadGraph& roads);
+  /// What the plan takes in memory: a byte for each cell between the outermost lanes, inside `area`.
+  static std::uint64_t bytes(const scene::RoadGraph& roads, const Bounds& area);
   /// Of a scene whose lanes are laid. What stands between 0.35 m and 3.5 m above the ground takes its place;
   /// what hangs higher does not. Tunnels ("Road tunnel") have no room. Of trees that are grown plants, the
-  /// trunks do.
-  explicit FreeGround(const scene::Scene& scene);
+  /// trunks do. The plan ends with `area` (x and y), if the lanes reach farther: beyond it nothing is free.
+  explicit FreeGround(const scene::Scene& scene, const Bounds& area = everywhere());
+  /// An area without an end.
+  static Bounds everywhere();
 
   /// No thing is within `radius_m` of a point in plan, and no carriageway within `from_lanes_m`; 0: that does
   /// not count.

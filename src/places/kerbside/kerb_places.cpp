@@ -62,7 +62,11 @@ std::vector<KerbPlace> take_kerb_places(const scene::RoadGraph& roads, const Ker
         const auto is_free = [&](vec2 p) {
           return ground.is_free(p, series.radius_m, is_on_lane ? 0.0f : series.from_lanes_m);
         };
-        if (!random.chance(series.share) || !all_along(foot, along, series, is_free)) continue;
+        // Chance decides about places outside the circle, too: a wider one changes none of those inside.
+        const bool is_taken = random.chance(series.share);
+        if (!is_taken || (series.circle && !series.circle->contains(foot)) ||
+            !all_along(foot, along, series, is_free))
+          continue;
         const float half_m = series.half_length_m;
         const auto height = [&](float ahead_m) { return ground.height(foot + ahead_m * along, middle.z); };
         const float rise = half_m > 0.0f ? (height(half_m) - height(-half_m)) / (2.0f * half_m) : 0.0f;

@@ -2,11 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "places/kerbside/free_ground.h"
 
 namespace parvis::kerbside {
+
+/// Part of a plan, metres.
+struct Circle {
+  glm::vec2 middle{0.0f};
+  float radius_m = 0.0f;
+
+  bool contains(glm::vec2 point) const { return glm::distance(point, middle) <= radius_m; }
+};
 
 /// What stands in a series, and how near to what. Metres.
 struct KerbSeries {
@@ -18,6 +27,7 @@ struct KerbSeries {
   float share = 1.0f;                 ///< of the places: the others stay free
   std::uint64_t seed = 1;             ///< of the chance by which they do
   bool stands_on_wide_lanes = false;  ///< on lanes of 4.8 m and more, beside the kerb, as parked cars do
+  std::optional<Circle> circle = {};  ///< in which it stands; without one: everywhere
 };
 
 /// One of them.

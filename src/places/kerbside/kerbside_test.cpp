@@ -523,6 +523,28 @@ TEST_F(Kerbside, BenchesTurnTheirBacksToTheHouses) {
     }
 }
 
+TEST_F(Kerbside, ACircleKeepsWhatStandsInIt) {
+  for (const char* node :
+       {"parkedCars(share=0.5", "streetTrees(spacing=9", "streetFurniture(kind=\"lamps\""}) {
+    const scene::Scene all = load(std::string(node) + ")\n"),
+                       some = load(std::string(node) + ", around=\"60 0 0\", within=30)\n");
+    std::set<std::pair<float, float>> expected, found;
+    for (const scene::Object& object : all.objects)
+      if (object.name.starts_with("parked") || object.name.starts_with("street "))
+        if (const glm::vec2 p = place_of(object); glm::distance(p, {60, 0}) <= 30.0f)
+          expected.insert({p.x, p.y});
+    for (const scene::Object& object : some.objects)
+      if (object.name.starts_with("parked") || object.name.starts_with("street "))
+        found.insert({place_of(object).x, place_of(object).y});
+    EXPECT_GT(expected.size(), 1u) << node;
+    EXPECT_EQ(found, expected) << node;
+  }
+  const std::string far = "parkedCars(around=\"9000 0 0\", within=30)\n";
+  EXPECT_TRUE(called(load(far), "parked car").empty());
+  EXPECT_NE(errors_of("parkedCars(within=30)\n").find("scene.xp:6"), std::string::npos);
+  EXPECT_NE(errors_of("parkedCars(around=\"0 0 0\")\n").find("give both"), std::string::npos);
+}
+
 TEST_F(Kerbside, RepeatsWhatTheScriptNames) {
   folder_.write("post.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
   const std::string post = "model(name=\"post\", file=\"post.obj\", scale=2, visible=0)\n";

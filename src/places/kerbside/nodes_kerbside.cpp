@@ -4,7 +4,9 @@
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/bounds.h"
 #include "base/content_hash.h"
+#include "base/known_names.h"
 #include "base/memory_budget.h"
 #include "base/random.h"
 #include "life/vegetation/scene_plant.h"
@@ -13,6 +15,7 @@
 #include "places/kerbside/room.h"
 #include "places/kerbside/street_models.h"
 #include "scene/data/name_pattern.h"
+#include "scene/data/object_names.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
@@ -62,6 +65,29 @@ scene::AttributeSchema spacing_attribute(const std::string& help, double min_m) 
   return number("spacing", help).in("m").between(min_m, 500);
 }
 
+/// The circle in which a series stands, where a script gives one.
+std::vector<scene::AttributeSchema> circle_attributes() {
+  return {vec3("around", "with `within`: the middle of the circle in plan where they stand; else everywhere"),
+          number("within", "of `around`, in plan").in("m").between(5, 1e5)};
+}
+
+/// Its attributes and those of the circle.
+scene::NodeSchema with_circle(scene::NodeSchema schema) {
+  std::ranges::move(circle_attributes(), std::back_inserter(schema.attributes));
+  return schema;
+}
+
+/// Reads those. False, and an error of the builder, where one is without the other.
+bool read_circle(const scene::Node& node, scene::SceneBuilder& builder, KerbSeries& series) {
+  if (node.gives("around") != node.gives("within")) {
+    builder.fail(error_at(node.where_of(node.gives("around") ? "around" : "within"),
+                          "around=\"x y z\" and within=METRES name a circle together: give both"));
+    return false;
+  }
+  if (node.gives("around")) series.circle = {glm::vec2(node.vec3("around")), float(node.number("within"))};
+  return true;
+}
+
 scene::NodeSchema street_trees_schema() {
   return {
       .type = "streetTrees",
@@ -97,7 +123,7 @@ void build_street_trees(const scene::Node& node, scene::SceneBuilder& builder) {
   planned.models = [height_m, seed](std::size_t) { return street_trees(height_m, seed); };
   if (planned.of.empty()) planned.plant = {vegetation::find_kind(node.text("kind")), height_m, 0.0f, seed};
   planned.series.seed = seed, planned.turns_at_random = true;
-  builder.add(std::move(planned));
+  if (read_circle(node, builder, planned.series)) builder.add(std::move(planned));
 }
 
 scene::NodeSchema parked_cars_schema() {
@@ -128,7 +154,7 @@ void build_parked_cars(const scene::Node& node, scene::SceneBuilder& builder) {
   planned.series.share = float(node.number("share")),
   planned.series.seed = std::uint64_t(node.integer("seed"));
   planned.is_car = true;
-  builder.add(std::move(planned));
+  if (read_circle(node, builder, planned.series)) builder.add(std::move(planned));
 }
 
 scene::NodeSchema street_furniture_schema() {
@@ -162,7 +188,7 @@ void build_street_furniture(const scene::Node& node, scene::SceneBuilder& builde
     return StreetModels{{std::make_shared<scene::Model>(make())}};
   };
   planned.series.seed = std::uint64_t(node.integer("seed"));
-  builder.add(std::move(planned));
+  if (read_circle(node, builder, planned.series)) builder.add(std::move(planned));
 }
 
 /// At so many places. Empty, and an error of the builder, where no object has such a name.
@@ -179,9 +205,9 @@ std::vector<Repeated> what_is_repeated(const PlannedSeries& planned, std::size_t
       repeated.push_back({{object.model, object.paint}, glm::mat3(object.world_from_model)});
   if (repeated.empty())
     builder.fail(error_at(planned.where_of,
-                          "no object is called \"{}\"; give one a name, hide it with visible=0, "
-                          "and name it here",
-                          planned.of));
+                          "no object is called \"{}\", to be repeated here: give one this name, and "
+                          "hide it with visible=0{}",
+                          planned.of, names_that_exist(planned.of, scene::object_names(builder.scene))));
   return repeated;
 }
 
@@ -234,6 +260,19 @@ void set_up(const PlannedSeries& planned, FreeGround& ground, scene::SceneBuilde
   }
 }
 
+/// What the circles of all series cover; everything where one has none.
+Bounds area_of(const std::vector<PlannedSeries>& all) {
+  constexpr float margin_m = 5.0f;  // for what stands at the edge
+  Bounds area;
+  for (const PlannedSeries& planned : all) {
+    if (!planned.series.circle) return FreeGround::everywhere();
+    const float reach_m = planned.series.circle->radius_m + margin_m;
+    area.add(glm::vec3(planned.series.circle->middle - reach_m, 0.0f));
+    area.add(glm::vec3(planned.series.circle->middle + reach_m, 0.0f));
+  }
+  return area;
+}
+
 /// Series in the order of the script: what comes first takes its places first.
 void finish(scene::SceneBuilder& builder) {
   const std::vector<PlannedSeries> all = builder.scene.items<PlannedSeries>();
@@ -243,10 +282,12 @@ void finish(scene::SceneBuilder& builder) {
                                  "the scene has no streets along which a {} could stand; "
                                  "road() and streets() make them",
                                  all.front().object_name));
-  if (const Status enough = check_memory(FreeGround::bytes(builder.scene.roads), "the plan of all streets");
+  const Bounds area = area_of(all);
+  if (const Status enough =
+          check_memory(FreeGround::bytes(builder.scene.roads, area), "the plan of all streets");
       !enough)
     return builder.fail(enough.errors(), all.front().where_of);
-  FreeGround ground(builder.scene);
+  FreeGround ground(builder.scene, area);
   for (const PlannedSeries& planned : all)
     planned.plant.kind ? plant_series(planned, ground, builder) : set_up(planned, ground, builder);
 }
@@ -255,9 +296,9 @@ void finish(scene::SceneBuilder& builder) {
 
 void furnish(House& house) {
   scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
-  registry.add(street_trees_schema(), build_street_trees);
-  registry.add(parked_cars_schema(), build_parked_cars);
-  registry.add(street_furniture_schema(), build_street_furniture);
+  registry.add(with_circle(street_trees_schema()), build_street_trees);
+  registry.add(with_circle(parked_cars_schema()), build_parked_cars);
+  registry.add(with_circle(street_furniture_schema()), build_street_furniture);
   add_map_tree_nodes(registry);
   registry.add_finish_step(plant_map_trees);  // first: what grows there takes its place
   registry.add_rebuild_step(plant_rebuilt_map_trees);

@@ -1,5 +1,6 @@
 #include "places/kerbside/street_models.h"
 
+#include <map>
 #include <set>
 
 #include "base/colour.h"
@@ -16,8 +17,10 @@ using city::Outline, city::panelled_box, city::smooth, city::tube, city::turned;
 using glm::vec3;
 
 constexpr int tree_shapes = 5;
-constexpr float car_error_m = 0.005f;      // two of five triangles stay; from 3 m on bodies look the same
-constexpr std::size_t cars_per_body = 12;  // in a short street they differ by their paint alone
+// A car of so few triangles looks the same from 3 m on: of a wheel's outline 18 segments leave out 5 mm.
+constexpr float car_error_m = 0.006f, car_crease_deg = 45.0f;
+constexpr int car_wheel_segments = 18;
+constexpr std::size_t cars_per_body = 20;  // in a short street they differ by their paint alone
 constexpr float whole = 10.0f;             // of panels: one square
 
 scene::Material material(const char* name, vec3 colour, float roughness) {
@@ -98,6 +101,14 @@ std::size_t bodies_of(const StreetModels& models) {
   return bodies.size();
 }
 
+/// What turns by itself, as wheels do, touches nothing else.
+void simplify_car(scene::Model& car) {
+  std::map<int, std::vector<Mesh*>> meshes_of;  // by the nodes of their parts
+  for (scene::Part& part : car.parts) meshes_of[part.node].push_back(&part.mesh);
+  for (const auto& [node, meshes] : meshes_of) scene::simplify_together(meshes, car_error_m, car_crease_deg);
+  std::erase_if(car.parts, [](const scene::Part& part) { return part.mesh.indices.empty(); });
+}
+
 }  // namespace
 
 StreetModels street_trees(float height_m, std::uint64_t seed) {
@@ -112,9 +123,11 @@ StreetModels parked_cars(std::size_t places) {
   StreetModels models;
   for (const city::VehicleKind& kind : city::city_vehicles()) {
     if (kind.shape.name == "bus" || bodies_of(models) * cars_per_body >= places) continue;
-    scene::Model body = city::make_car(kind.shape, kind.paints.front());
-    body.name = body.nodes.front().name = kind.shape.name;
-    for (scene::Part& part : body.parts) part.mesh = scene::simplified(part.mesh, car_error_m);
+    city::CarShape shape = kind.shape;
+    shape.wheel_segments = car_wheel_segments, shape.has_round_tyre_shoulders = false;
+    scene::Model body = city::make_car(shape, kind.paints.front());
+    body.name = body.nodes.front().name = shape.name;
+    simplify_car(body);
     const auto shared = std::make_shared<const scene::Model>(std::move(body));
     for (const city::CarPaint& paint : kind.paints)
       models.push_back(

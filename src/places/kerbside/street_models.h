@@ -20,8 +20,8 @@ using StreetModels = std::vector<StreetModel>;
 /// Trees of about 10,000 triangles, all of one height, each another shape.
 StreetModels street_trees(float height_m, std::uint64_t seed);
 
-/// The cars of the paper's city, without its buses, for so many places: one body for up to a dozen of them,
-/// all three for more than two dozens, each in all of its paints. Cars of one body share its model.
+/// The cars of the paper's city, without its buses, for so many places: one body for up to twenty of them,
+/// all three for more than forty, each in all of its paints. Cars of one body share its model.
 StreetModels parked_cars(std::size_t places);
 
 /// A kind of street furniture.
