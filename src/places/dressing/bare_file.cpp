@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -14,15 +15,14 @@
 namespace parvis::dressing {
 namespace {
 
-constexpr float exhibit_m = 30.0f;    // what is smaller is a thing to look at: a car, a house
-constexpr float alone_m = 70.0f;      // a town model no larger is one house
-constexpr double dense_share = 0.12;  // of the ground, which is built over
-constexpr float margin_m = 60.0f;     // of ground around the place, for choosing views
-constexpr float steep = 0.7f;         // cosine of 45 degrees: green that rises so was measured from the air
-constexpr float upright = 0.3f;       // of 73 degrees: what is steeper is a wall
-constexpr float furnished_m =
-    6000.0f;                       // of streets; kerbs of larger places stay bare: pictures would take long
-constexpr int max_scripts = 1000;  // of one name in a folder
+constexpr float exhibit_m = 30.0f;      // what is smaller is a thing to look at: a car, a house
+constexpr float alone_m = 70.0f;        // a town model no larger is one house
+constexpr double dense_share = 0.12;    // of the ground, which is built over
+constexpr float margin_m = 60.0f;       // of ground around the place, for choosing views
+constexpr float steep = 0.7f;           // cosine of 45 degrees: green that rises so was measured from the air
+constexpr float upright = 0.3f;         // of 73 degrees: what is steeper is a wall
+constexpr float furnished_m = 6000.0f;  // of streets about the camera; more would make pictures slow
+constexpr int max_scripts = 1000;       // of one name in a folder
 
 using scene::Model, scene::Part;
 
@@ -138,28 +138,45 @@ std::string dressing_of(const Model& model, bool is_alone) {
   return nodes;
 }
 
-/// What stands along kerbs: generated trees where the file has none.
-std::string nodes_of_kerbs(const Model& model, const std::vector<scene::Road>& streets) {
-  float length_m = 0.0f;
-  for (const scene::Road& street : streets)
-    for (std::size_t i = 0; i + 1 < street.path.size(); ++i)
-      length_m += glm::distance(street.path[i], street.path[i + 1]);
-  if (streets.empty() || length_m > furnished_m) return "";
-  const bool has_trees =
-      std::ranges::any_of(model.parts, [&](const Part& part) {  // other than those of woods
-        return material_of(model, part).name == "SolitaryVegetationObject" &&
-               part.object.find(" wood") == std::string::npos;
-      });
-  return std::string("streetFurniture(kind=\"lamps\")\nparkedCars(share=0.4)\n") +
-         (has_trees ? "" : "streetTrees(kind=\"plane\", spacing=12, clear=2.5)\n");
-}
-
 std::string number(float value) {
   const float rounded = std::round(10.0f * value) / 10.0f;
   return fmt::format("{}", rounded == 0.0f ? 0.0f : rounded);
 }
 
 std::string point(glm::vec3 p) { return fmt::format("\"{} {} {}\"", number(p.x), number(p.y), number(p.z)); }
+
+/// Metres of streets within a distance of a point.
+float length_within(const std::vector<scene::Road>& streets, glm::vec2 point, float radius_m) {
+  float length_m = 0.0f;
+  for (const scene::Road& street : streets)
+    for (std::size_t i = 0; i + 1 < street.path.size(); ++i)
+      if (glm::distance(0.5f * (glm::vec2(street.path[i]) + glm::vec2(street.path[i + 1])), point) < radius_m)
+        length_m += glm::distance(street.path[i], street.path[i + 1]);
+  return length_m;
+}
+
+/// Attributes of the largest circle about the camera whose streets are furnished; none: all of them are.
+std::string furnished_circle(const std::vector<scene::Road>& streets, glm::vec3 eye) {
+  if (length_within(streets, glm::vec2(eye), std::numeric_limits<float>::infinity()) <= furnished_m)
+    return "";
+  float radius_m = 800.0f;
+  while (radius_m > 100.0f && length_within(streets, glm::vec2(eye), radius_m) > furnished_m)
+    radius_m -= 50.0f;
+  return fmt::format(", around={}, within={}", point(eye), radius_m);
+}
+
+/// What stands along kerbs: generated trees where the file has none.
+std::string nodes_of_kerbs(const Model& model, const std::vector<scene::Road>& streets, glm::vec3 eye) {
+  if (streets.empty()) return "";
+  const bool has_trees =
+      std::ranges::any_of(model.parts, [&](const Part& part) {  // other than those of woods
+        return material_of(model, part).name == "SolitaryVegetationObject" &&
+               part.object.find(" wood") == std::string::npos;
+      });
+  const std::string circle = furnished_circle(streets, eye);
+  return fmt::format("streetFurniture(kind=\"lamps\"{})\nparkedCars(share=0.4{})\n", circle, circle) +
+         (has_trees ? "" : fmt::format("streetTrees(kind=\"plane\", spacing=12, clear=2.5{})\n", circle));
+}
 
 std::string camera(const char* name, const View& view) {
   return fmt::format("camera(name=\"{}\", position={}, target={})\n", name, point(view.eye),
@@ -177,7 +194,8 @@ std::string day_light(const std::optional<glm::dvec2>& place_deg) {
   };
   const glm::dvec2 deg = place_deg.value_or(anywhere_deg);
   return fmt::format(
-      "dayLight(latitude={}, longitude={}, standardMeridian={:.0f}, julianDay={}, timeOfDay=16)\n",
+      "dayLight(latitude={}, longitude={}, standardMeridian={:.0f}, julianDay={}, timeOfDay=16, "
+      "turbidity=2.2)\n",
       rounded(deg.y), rounded(deg.x), std::floor(deg.x / degrees_per_hour + 0.5) + summer_time_h,
       deg.y < 0.0 ? december_solstice : june_solstice);
 }
@@ -223,8 +241,9 @@ std::string bare_scene(const Model& model, const std::string& file,
   if (!surfaces.empty()) script += "streets(of=\"place\")\n";
   script += is_town ? "terrain_plane()\n" : "terrain_plane(surface=\"paving\", beyond=\"lawn\")\n";
   if (has_surface(model, "SolitaryVegetationObject")) script += "grownTrees(of=\"place\")\n";
-  script += nodes_of_kerbs(model, surfaces);
+  script += nodes_of_kerbs(model, surfaces, street.eye);
   script += "\n// A summer's afternoon.\n" + day_light(place_deg) +
+            "exposure(value=1.3)\n"
             "air(haze_per_m=0.0004)\n"
             "shadowMap()\n";
   if (is_exhibit) script += "reflection(method=\"rerendered_cube_map\", resolution=256)\n";

@@ -106,6 +106,48 @@ TEST(BareFile, TheStreetIsSeenAlong) {
   EXPECT_GT(std::abs(ahead.x), 0.9f) << "along them, not at them";
 }
 
+/// A street of houses in a plain of 12 km, where a barn stands in each corner.
+Model street_in_a_large_place() {
+  Model model = street_of_houses();
+  for (const glm::vec2 corner : {glm::vec2(-6000, -6000), {6000, -6000}, {-6000, 6000}, {6000, 6000}}) {
+    const glm::vec3 at(corner, 0.0f);
+    add_part(model, "WallSurface", scene::box(at, at + glm::vec3(20, 15, 6)));
+    add_part(model, "RoofSurface", scene::box(at + glm::vec3(0, 0, 6), at + glm::vec3(20, 15, 7)));
+  }
+  return model;
+}
+
+/// From here to as far in the east, through the street of houses.
+std::vector<scene::Road> street_from(float west_m) {
+  std::vector<scene::Road> roads(1);
+  roads.front().path = {{west_m, 0, 0}, {-west_m, 0, 0}};
+  return roads;
+}
+
+TEST(BareFile, TheStreetOfALargePlaceIsLookedForWhereItsHousesAre) {
+  Model model = street_in_a_large_place();
+  scene::Scene scene;
+  scene.objects.emplace_back();
+  scene.objects.back().model = std::make_shared<const Model>(model);
+  const std::vector<scene::Road> roads = street_from(-6000);
+  const scene::PlaceHeights place(scene, roads, 60.0f);
+  const View view = street_view(scene, place, roads);
+  EXPECT_LT(std::abs(view.eye.x - 60.0f), 70.0f) << "at the houses, which stand from 0 to 120";
+  EXPECT_GT(glm::dot(view.target - view.eye, glm::vec3(60, 0, 0) - view.eye), 0.0f) << "toward them";
+  EXPECT_GT(std::abs(glm::normalize(view.target - view.eye).x), 0.9f);
+}
+
+TEST(BareFile, OfALargePlaceTheStreetsAboutTheCameraAreFurnished) {
+  Model model = street_in_a_large_place();
+  model.roads = street_from(-2000);
+  EXPECT_NE(bare_scene(model, "town.osm").find("parkedCars(share=0.4)"), std::string::npos) << "all of 4 km";
+  model.roads = street_from(-6000);
+  const std::string script = bare_scene(model, "town.osm");
+  for (const char* node : {"streetFurniture(kind=\"lamps\", around=\"", "parkedCars(share=0.4, around=\"",
+                           "streetTrees(kind=\"plane\", spacing=12, clear=2.5, around=\""})
+    EXPECT_NE(script.find(node), std::string::npos) << node << "\n" << script;
+}
+
 TEST(BareFile, ATowerIsSeenWholeFromAbove) {
   Model model;
   add_part(model, "WallSurface", scene::box({0, 0, 0}, {12, 10, 30}));

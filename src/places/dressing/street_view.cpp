@@ -23,6 +23,9 @@ constexpr float near_built_m = 30.0f;    // of a spot in the open to what is bui
 constexpr std::size_t max_spots = 4000;  // in the open
 constexpr float road_step_m = 6.0f, open_step_m = 5.0f;
 constexpr float max_cells = 4e6f, finest_cell_m = 0.5f;
+constexpr float centre_m = 1000.0f;   // of a larger place, where its street is looked for
+constexpr float wall_cell_m = 50.0f;  // of the plan on which that part is looked for
+constexpr float upright = 0.3f;       // cosine of the normals of walls
 constexpr float overview_radius_m = 130.0f;
 constexpr int headings = 24;
 const glm::vec2 to_sun(-0.6f, -0.8f);  // in the afternoon
@@ -39,13 +42,65 @@ struct Obstacles {
   }
 };
 
-Obstacles obstacles(const scene::Scene& scene, const scene::PlaceHeights& place) {
+/// A part of the plan, metres.
+struct Window {
+  glm::vec2 origin, size;
+};
+
+/// Square metres of walls in each cell of `grid`, and of the cells before it in both directions (Crow 1984:
+/// Summed-area tables). Plants have no walls.
+scene::GroundRaster<double> sums_of_walls(const scene::Scene& scene, const scene::GroundGrid& grid) {
+  scene::GroundRaster<double> sums({grid.width + 1, grid.height + 1, grid.cell_m, grid.origin}, 0.0);
+  for (const scene::Object& object : scene.objects) {
+    const std::vector<glm::mat4> pose = scene::rest_pose(*object.model);
+    for (const scene::Part& part : object.model->parts) {
+      const std::string& name = object.model->materials[std::size_t(part.material)].name;
+      if (name == "SolitaryVegetationObject" || name == "PlantCover") continue;
+      const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
+      const auto corner = [&](std::size_t i) {
+        return glm::vec3(world_from_mesh * glm::vec4(part.mesh.positions[part.mesh.indices[i]], 1.0f));
+      };
+      for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
+        const glm::vec3 a = corner(i), area = 0.5f * glm::cross(corner(i + 1) - a, corner(i + 2) - a);
+        const glm::ivec2 cell = grid.cell_at(glm::vec2(a));
+        if (std::abs(area.z) < upright * glm::length(area) && grid.contains(cell.x, cell.y))
+          sums.at(cell.x + 1, cell.y + 1) += double(glm::length(area));
+      }
+    }
+  }
+  for (int y = 1; y <= grid.height; ++y)
+    for (int x = 1; x <= grid.width; ++x)
+      sums.at(x, y) += sums.at(x - 1, y) + sums.at(x, y - 1) - sums.at(x - 1, y - 1);
+  return sums;
+}
+
+/// The part of a place, a town's centre wide, with the most walls of houses. A smaller place as a whole.
+Window window_of_houses(const scene::Scene& scene, const scene::PlaceHeights& place) {
   const scene::GroundGrid& plan = place.heights();
   const glm::vec2 size = plan.cell_m * glm::vec2(plan.width, plan.height);
+  if (std::max(size.x, size.y) <= centre_m) return {plan.origin, size};
+  const scene::GroundGrid grid{int(std::ceil(size.x / wall_cell_m)), int(std::ceil(size.y / wall_cell_m)),
+                               wall_cell_m, plan.origin};
+  const scene::GroundRaster<double> sums = sums_of_walls(scene, grid);
+  const glm::ivec2 window =
+      glm::min(glm::ivec2(int(centre_m / wall_cell_m)), glm::ivec2(grid.width, grid.height));
+  glm::ivec2 best(0);
+  double most = -1.0;
+  for (int y = 0; y + window.y <= grid.height; ++y)
+    for (int x = 0; x + window.x <= grid.width; ++x) {
+      const double walls = sums.at(x + window.x, y + window.y) - sums.at(x, y + window.y) -
+                           sums.at(x + window.x, y) + sums.at(x, y);
+      if (walls > most) most = walls, best = {x, y};
+    }
+  return {grid.origin + wall_cell_m * glm::vec2(best), wall_cell_m * glm::vec2(window)};
+}
+
+Obstacles obstacles(const scene::Scene& scene, const scene::PlaceHeights& place) {
+  const auto [origin, size] = window_of_houses(scene, place);
   const float cell_m = std::max(finest_cell_m, std::sqrt(size.x * size.y / max_cells));
   const glm::ivec2 cells(glm::ceil(size / cell_m));
-  Obstacles found{scene::Mask(cells.x, cells.y, cell_m, plan.origin, 0),
-                  scene::GroundRaster<float>(cells.x, cells.y, cell_m, plan.origin, -1e9f)};
+  Obstacles found{scene::Mask(cells.x, cells.y, cell_m, origin, 0),
+                  scene::GroundRaster<float>(cells.x, cells.y, cell_m, origin, -1e9f)};
   const scene::Mask& mask = found.mask;
   for (const scene::Object& object : scene.objects) {
     const std::vector<glm::mat4> pose = scene::rest_pose(*object.model);
