@@ -12,9 +12,12 @@ GLSL_FUNCTION float sky_share_beside_bodies(vec3 position, vec3 normal, int obje
   int cell = int(place.y) * body_cells_per_side + int(place.x);
   uint word = body_cells[cell / 4][cell % 4];
   float share = 1.0f;
-  for (; word != 0u; word >>= 8u) {
-    Body body = bodies[int(word & 255u) - 1];
-    if (int(body.half_size_m.w) != object + 1) share *= sky_share_beside(body, position, normal);
-  }
+  do {  // the condition comes last: see lamps_lookup.glsl
+    int number = int(word & 255u) - 1;
+    Body body = bodies[max(number, 0)];
+    if (number >= 0 && int(body.half_size_m.w) != object + 1)
+      share *= sky_share_beside(body, position, normal);
+    word >>= 8u;
+  } while (word != 0u);
   return share;
 }

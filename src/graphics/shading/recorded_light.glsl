@@ -9,3 +9,11 @@ GLSL_FUNCTION vec3 tone_unmapped(vec3 display) {
   vec3 root = sqrt(max(middle * middle - 4.0f * square * rest, vec3(0.0f)));
   return max((root - middle) / (2.0f * square), vec3(0.0f));
 }
+
+// The same of sRGB, 0..1, as it is encoded: a quotient of polynomials in place of powers and roots. Displayed
+// again, its error is below 0.1 of 255 steps.
+GLSL_FUNCTION vec3 srgb_tone_unmapped(vec3 s) {
+  vec3 above = s * (vec3(0.20803895f) + s * (vec3(-0.20182983f) + s * (vec3(30.3563599f) + 17.2270078f * s)));
+  vec3 below = vec3(1.0f) + s * (vec3(5.56131406f) + s * (vec3(79.0494510f) - 79.6366734f * s));
+  return above / below;
+}

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+
+#include "base/colour.h"
 
 namespace parvis::shading {
 namespace {
+#include "graphics/shading/recorded_light.glsl"
 
 float mapped(float exposed) { return tone_mapped(vec3(exposed)).x; }
 
@@ -27,6 +31,17 @@ TEST(ToneCurve, HasHablesPoints) {
   };
   for (const double x : {0.05, 0.18, 0.5, 1.0, 2.0, 5.0})
     EXPECT_NEAR(double(mapped(float(x))), hables(x) / hables(8.0), 1e-5) << "at " << x;
+}
+
+TEST(ToneCurve, WhatPhotographsRecordedIsDisplayedAsItWas) {
+  for (int i = 0; i <= 510; ++i) {
+    const float srgb = float(i) / 510.0f;
+    const auto steps_off = [&](float exposed) {
+      return 255.0f * std::abs(srgb_from_linear(vec3(mapped(exposed))).x - srgb);
+    };
+    EXPECT_LT(steps_off(tone_unmapped(linear_from_srgb(vec3(srgb))).x), 0.1f) << i;
+    EXPECT_LT(steps_off(srgb_tone_unmapped(vec3(srgb)).x), 0.1f) << i;
+  }
 }
 
 TEST(ToneCurve, WhatNoDisplayCanShowIsClamped) {
