@@ -107,7 +107,7 @@ class RayScene::TracedThings final : public scene::TracedScene {
     part.surface = surface.get();
     part.world_from_mesh = world_from_mesh;
     part.object = first_thing_ + placing.thing;
-    part.casts_shadow = placing.casts_shadow;
+    part.casts_shadow = placing.casts_shadow && !placing.is_backdrop;
     part.is_recorded = is_recorded_;
     part.is_backdrop = placing.is_backdrop;
     rays_.place(part, true);
@@ -119,10 +119,14 @@ class RayScene::TracedThings final : public scene::TracedScene {
     if (!placing.is_visible) return;
     const std::vector<glm::mat4> pose = scene::rest_pose(*model);
     for (std::size_t p = 0; p < model->parts.size(); ++p) {
-      const scene::Part& part = model->parts[p];
-      rays_.place(*model, model->materials, p, part.mesh, world_from_model * pose[std::size_t(part.node)],
-                  first_thing_ + placing.thing, false, true, false);
-      rays_.places_.back()->casts_shadow &= placing.casts_shadow;
+      const scene::Part& source = model->parts[p];
+      PlacedPart part =
+          rays_.part_of(*model, model->materials, p, source.mesh,
+                        world_from_model * pose[std::size_t(source.node)], first_thing_ + placing.thing);
+      part.is_backdrop |= placing.is_backdrop;
+      part.casts_shadow &= placing.casts_shadow && !placing.is_backdrop;
+      part.is_recorded = is_recorded_;
+      rays_.place(part, true);
     }
     rays_.kept_.push_back(std::move(model));
   }
@@ -144,6 +148,7 @@ RayScene::RayScene(const scene::Scene& scene, Precision precision)
   rtcSetSceneFlags(joined_, traced_flags);
   RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(instance, joined_);
+  rtcSetGeometryMask(instance, others_mask);
   rtcAttachGeometryByID(top_, instance, joined_instance);
   rtcReleaseGeometry(instance);
   for (const scene::Object& object : scene.objects)
@@ -233,6 +238,28 @@ bool RayScene::update(const scene::Scene& scene) {
   return has_changed;
 }
 
+std::vector<const PlacedPart*> RayScene::parts_of(int object) const {
+  std::vector<const PlacedPart*> parts;
+  for (const std::unique_ptr<PlacedPart>& place : places_)
+    if (place->object == object && place->is_traced) parts.push_back(place.get());
+  return parts;
+}
+
+bool RayScene::set_apart(int object) {
+  if (object == apart_) return true;
+  if (std::ranges::any_of(parts_of(object), &PlacedPart::is_joined)) return false;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const PlacedPart& place = *places_[i];
+    if (!place.is_traced || place.is_joined || (place.object != object && place.object != apart_)) continue;
+    const RTCGeometry instance = rtcGetGeometry(top_, instance_of(i));
+    rtcSetGeometryMask(instance, place.object == object ? apart_mask : others_mask);
+    rtcCommitGeometry(instance);
+  }
+  apart_ = object;
+  rtcCommitScene(top_);
+  return true;
+}
+
 Bounds RayScene::fixed_bounds(const scene::Scene& scene) const {
   Bounds bounds;
   for (const std::unique_ptr<PlacedPart>& place : places_) {
@@ -276,15 +303,16 @@ void RayScene::add_object(const scene::Object& object, int number) {
   const scene::Model& model = *object.model;
   const bool is_still = !object.is_dynamic && object.deformed_meshes.empty();
   const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(model) : object.pose;
-  for (std::size_t p = 0; p < model.parts.size(); ++p)
-    place(model, object.materials(), p, object.mesh(p),
-          object.world_from_model * pose[std::size_t(model.parts[p].node)], number, object.takes_reflection,
-          object.is_visible, is_still && placed_[&object.mesh(p)] == 1);
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    PlacedPart part = part_of(model, object.materials(), p, object.mesh(p),
+                              object.world_from_model * pose[std::size_t(model.parts[p].node)], number);
+    part.is_mirror = object.takes_reflection && part.material->is_mirror_like;
+    place(part, object.is_visible, is_still && placed_[&object.mesh(p)] == 1);
+  }
 }
 
-void RayScene::place(const scene::Model& model, const std::vector<scene::Material>& materials, std::size_t p,
-                     const Mesh& mesh, const glm::mat4& world_from_mesh, int number, bool takes_reflection,
-                     bool is_visible, bool may_join) {
+PlacedPart RayScene::part_of(const scene::Model& model, const std::vector<scene::Material>& materials,
+                             std::size_t p, const Mesh& mesh, const glm::mat4& world_from_mesh, int number) {
   const scene::Part& source = model.parts[p];
   PlacedPart part{};
   part.mesh = &mesh;
@@ -294,12 +322,11 @@ void RayScene::place(const scene::Model& model, const std::vector<scene::Materia
   part.openness = leaves_.of(model, p);
   part.world_from_mesh = world_from_mesh;
   part.object = number;
-  part.casts_shadow = source.casts_shadow && shadows_.casts(std::size_t(number));
-  part.is_painted_shadow = !source.casts_shadow;
+  part.casts_shadow = source.casts_shadow && !source.is_backdrop && shadows_.casts(std::size_t(number));
+  part.is_painted_shadow = !source.casts_shadow && !source.is_backdrop;
   part.receives_shadow = shadows_.receives(std::size_t(number));
   part.is_backdrop = source.is_backdrop;
-  part.is_mirror = takes_reflection && part.material->is_mirror_like;
-  place(part, is_visible, may_join);
+  return part;
 }
 
 void RayScene::place(const PlacedPart& part, bool is_visible, bool may_join) {
@@ -359,6 +386,7 @@ bool RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world
   part.is_mirrored = volume_of(world_from_mesh) < 0.0f;
   rtcSetGeometryInstancedScene(instance, mesh_scene(mesh, world_from_mesh, is_filtered));
   rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, glm::value_ptr(world_from_mesh));
+  rtcSetGeometryMask(instance, part.object == apart_ ? apart_mask : others_mask);
   rtcEnableGeometry(instance);
   rtcCommitGeometry(instance);
   return true;

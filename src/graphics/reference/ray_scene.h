@@ -27,10 +27,14 @@ struct RTCSceneTy;
 
 namespace parvis::reference {
 
+/// What a ray hits where an object is set apart (RayScene::set_apart).
+enum class Meets : unsigned char { all, others, apart };
+
 /// A ray in the world: a hit counts between `min_m` and `max_m` along it.
 struct Ray {
   glm::vec3 origin, direction;  ///< unit direction
   float min_m = 1e-4f, max_m = 1e30f;
+  Meets meets = Meets::all;
 };
 
 /// A part of an object in the world, or a mesh that a room draws by itself.
@@ -110,6 +114,12 @@ class RayScene {
   /// part one before and one after it.
   std::span<const Bounds> moved() const { return moved_; }
 
+  /// From now on rays may hit this object of the scene alone, or all but this: one at a time. False where it
+  /// stands still, so that its triangles are joined with others; nothing has changed then.
+  bool set_apart(int object);
+  /// Parts of an object of the scene that can be hit, in the model's order.
+  std::vector<const PlacedPart*> parts_of(int object) const;
+
   /// The nearest surface that the renderer would draw along the ray; none: the sky.
   std::optional<Hit> nearest_hit(const Ray& ray) const;
   /// The nearest surface under the rules of a photograph; `passage` supplies the random numbers.
@@ -143,9 +153,8 @@ class RayScene {
   std::optional<Hit> nearest_hit(const Ray& ray, Passage* passage) const;
   bool is_blocked(const Ray& ray, Passage* passage, bool passes_recorded = false) const;
   void add_object(const scene::Object& object, int number);
-  void place(const scene::Model& model, const std::vector<scene::Material>& materials, std::size_t part,
-             const Mesh& mesh, const glm::mat4& world_from_mesh, int number, bool takes_reflection,
-             bool is_visible, bool may_join);
+  PlacedPart part_of(const scene::Model& model, const std::vector<scene::Material>& materials,
+                     std::size_t part, const Mesh& mesh, const glm::mat4& world_from_mesh, int number);
   void place(const PlacedPart& part, bool is_visible, bool may_join = false);
   void commit();
   bool move(std::size_t place, const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_visible);
@@ -178,6 +187,7 @@ class RayScene {
   std::unordered_map<const scene::Model*, std::unique_ptr<std::vector<MipTexture>>> textures_;
   std::vector<std::shared_ptr<const void>> kept_;  ///< meshes, models and surfaces of traced things
   std::vector<Bounds> moved_;
+  int apart_ = scene::no_index;  ///< the object that is set apart
   std::size_t triangle_count_ = 0;
   float margin_m_ = 0.0f;  ///< by which triangles are grown; 0: Precision::coarse
 };

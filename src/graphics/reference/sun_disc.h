@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "graphics/reference/frame.h"
+#include "graphics/shading/sun.h"
 #include "scene/data/scene.h"
 
 namespace parvis::reference {
@@ -13,7 +14,7 @@ class SunDisc {
  public:
   explicit SunDisc(const scene::Sun& sun)
       : frame_(glm::normalize(sun.direction_to_sun)),
-        radiance_(sun.irradiance / (3.14159265f * sine_ * sine_)),
+        radiance_(sun.irradiance / shading::sun_solid_angle_sr),
         shines_(sun.irradiance != glm::vec3(0.0f)) {}
 
   bool shines() const { return shines_; }
@@ -23,19 +24,19 @@ class SunDisc {
 
   bool contains(glm::vec3 direction) const {
     const glm::vec3 chord = direction - frame_.normal;
-    return glm::dot(chord, chord) < 2.0f * depth_;
+    return glm::dot(chord, chord) < 2.0f * depth();
   }
   /// A direction to the disc from two uniform numbers; each has `density()`.
   glm::vec3 direction(glm::vec2 uniform) const {
-    const float w = uniform.x * depth_, radius = std::sqrt(w * (2.0f - w)), turn = 6.2831853f * uniform.y;
+    const float w = uniform.x * depth(), radius = std::sqrt(w * (2.0f - w)), turn = 6.2831853f * uniform.y;
     return frame_.in_world({radius * std::cos(turn), radius * std::sin(turn), 1.0f - w});
   }
   /// Per steradian.
-  static float density() { return 1.0f / (6.2831853f * depth_); }
+  static float density() { return 1.0f / shading::sun_solid_angle_sr; }
 
  private:
-  static constexpr float sine_ = 0.00465f;               // half of 0.533 degrees
-  static constexpr float depth_ = 0.5f * sine_ * sine_;  // 1 - cosine, to seven digits
+  /// 1 minus the cosine of the disc's radius, to five digits.
+  static float depth() { return 0.5f * shading::sun_radius_rad * shading::sun_radius_rad; }
 
   Frame frame_;
   glm::vec3 radiance_;

@@ -236,10 +236,47 @@ TEST(TracedThings, ModelsAreBackdropsAndCastersAsTheySay) {
   };
   EXPECT_EQ(blocks({}), std::pair(true, true));
   EXPECT_EQ(blocks({.casts_shadow = false}), std::pair(false, true));
+  EXPECT_EQ(blocks({.is_backdrop = true}), std::pair(false, false)) << "the room says so";
   auto far_away = std::make_shared<scene::Model>(*model);
-  far_away->parts[0].is_backdrop = true, far_away->parts[0].casts_shadow = false;
+  far_away->parts[0].is_backdrop = true;
   model = far_away;
-  EXPECT_EQ(blocks({}), std::pair(false, false));
+  EXPECT_EQ(blocks({}), std::pair(false, false)) << "its part says so";
+}
+
+/// A backdrop of a scene's own model is seen, and rays to the light pass it as they pass it in the renderer's
+/// maps, whatever its part says of shadows. A blended one is no painted shadow.
+TEST(TracedThings, ABackdropOfAnObjectIsSeenAndCastsNoShadow) {
+  for (const scene::Alpha alpha : {scene::Alpha::opaque, scene::Alpha::blend})
+    for (const bool casts_shadow : {false, true}) {
+      scene::Material material = scene::matt(glm::vec3(0.5f));
+      material.alpha_mode = alpha, material.is_double_sided = true;
+      auto model = scene::model_of(*facing_south(), material);
+      model->parts[0].is_backdrop = true, model->parts[0].casts_shadow = casts_shadow;
+      scene::Scene scene;
+      scene::add(scene, model);
+      const RayScene rays(scene);
+      Passage passage;
+      const Ray ray{{-1, -5, 0.2f}, {0, 1, 0}};
+      EXPECT_TRUE(rays.nearest_hit(ray));
+      EXPECT_TRUE(rays.nearest_hit(ray, passage));
+      EXPECT_FALSE(rays.is_blocked(ray));
+      EXPECT_FALSE(rays.is_blocked(ray, passage));
+    }
+}
+
+/// Photographs hold the shadows of what they show, of models, too.
+TEST(TracedThings, RecordedModelsCastNoInsertedShadow) {
+  const std::shared_ptr<const scene::Model> model = scene::model_of(
+      scene::quad({-2, 0, -2}, {2, 0, -2}, {2, 0, 2}, {-2, 0, 2}), scene::matt(glm::vec3(0.5f)));
+  for (const bool is_recorded : {false, true}) {
+    scene::Scene scene =
+        scene_with([&](scene::TracedScene& traced) { traced.add(model, glm::mat4(1.0f), {}); });
+    scene.traced_kinds.front().is_recorded = is_recorded;
+    const RayScene rays(scene);
+    const Ray ray{{-1, 5, 0.2f}, {0, -1, 0}};
+    EXPECT_TRUE(rays.is_blocked(ray));
+    EXPECT_EQ(rays.is_blocked_by_inserted(ray), !is_recorded);
+  }
 }
 
 }  // namespace
