@@ -14,6 +14,7 @@ constexpr std::size_t pixel_count = std::size_t(width) * std::size_t(height);
 constexpr float min_area_m2 = 4.0f;  // smaller triangles hide less than they cost
 constexpr std::size_t max_shape_triangles = 20'000;
 constexpr float min_area_px = 0.01f;
+constexpr float farthest_px = 1e7f;  // of a corner from the picture: beyond it floats do not know the edges
 constexpr std::size_t tasks = 16;
 constexpr float slack = 1.001f;  // of depth: an occluder does not hide itself, nor what lies in its plane
 
@@ -84,6 +85,11 @@ void OcclusionCuller::project(const glm::mat4& clip_from_corners, const glm::vec
                                      on_screen(polygon[std::size_t(fan) + 1])};
     const float twice_area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
     if (twice_area < min_area_px) continue;  // seen from behind, or too small
+    // Also where a corner is not a number, as that of a triangle of many kilometres that touches the eye's
+    // plane.
+    if (!std::ranges::all_of(
+            p, [](const glm::vec3& c) { return std::abs(c.x) < farthest_px && std::abs(c.y) < farthest_px; }))
+      continue;
     const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
     const auto [bottom, top] = std::minmax({p[0].y, p[1].y, p[2].y});
     ScreenTriangle screen;

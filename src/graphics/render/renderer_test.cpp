@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "base/colour.h"
 #include "base/random.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/render/culling_check.h"
 #include "graphics/render/golden.h"
+#include "graphics/render/occlusion.h"
 #include "graphics/render/picture_reader.h"
 #include "scene/data/test_crown.h"
 #include "scene/data/test_scene.h"
@@ -87,16 +90,18 @@ struct WallView {
 
 TEST_F(RendererTest, ABackdropIsNoPartOfThePlaceThatShadowsAreFittedTo) {
   const std::shared_ptr<scene::Model> model = model_of(ground(30), matt(glm::vec3(0.3f)));
-  model->parts.push_back(
-      {.object = "far away", .mesh = sphere(glm::vec3(0.0f), 900.0f), .casts_shadow = false});
-  const auto fixed = [&](bool is_backdrop) {
+  model->parts.push_back({.object = "far away", .mesh = sphere(glm::vec3(0.0f), 900.0f)});
+  const auto renderer_with = [&](bool is_backdrop) {
     model->parts[1].is_backdrop = is_backdrop;
     scene::Scene scene;
     add(scene, model);
-    return renderer_of(scene)->gpu().fixed_bounds();
+    return renderer_of(scene);
   };
-  EXPECT_EQ(fixed(true).max.x, 30.0f);
-  EXPECT_NEAR(fixed(false).max.x, 900.0f, 10.0f);
+  const auto with = renderer_with(true), without = renderer_with(false);
+  EXPECT_EQ(with->gpu().fixed_bounds().max.x, 30.0f);
+  EXPECT_NEAR(without->gpu().fixed_bounds().max.x, 900.0f, 10.0f);
+  EXPECT_FALSE(with->gpu().items()[1].casts_shadow) << "light passes it, whatever its part says";
+  EXPECT_TRUE(without->gpu().items()[1].casts_shadow);
 }
 
 TEST_F(RendererTest, ASmallPictureIsTheSameAfterALargeOne) {
@@ -423,6 +428,24 @@ TEST_F(RendererTest, AnOccluderDoesNotHideItself) {
   for (int i = 0; i < 50; ++i) {
     renderer->prepare_main_view(map_camera(20.0f + float(i), 10), 64, 64);
     EXPECT_EQ(renderer->statistics().items_hidden, 0) << i;
+  }
+}
+
+TEST(OcclusionCuller, TrianglesOfNoNumbersHideNothing) {
+  Camera camera;
+  camera.world_from_camera = look_at({0, 0, 1.6f}, {0, 10, 1.6f});
+  const float none = std::numeric_limits<float>::quiet_NaN(),
+              endless = std::numeric_limits<float>::infinity();
+  for (const glm::vec3 corner : {glm::vec3(none), glm::vec3(0, none, 2), glm::vec3(0, 0, endless)}) {
+    OcclusionCuller culler;
+    Mesh mesh;
+    mesh.positions = {{-5, 4, 0}, {5, 4, 0}, corner};
+    mesh.indices = {0, 1, 2};
+    culler.add_occluder(mesh, glm::mat4(1.0f), true);
+    culler.draw(camera.clip_from_camera(16.0f / 9.0f) * glm::inverse(camera.world_from_camera));
+    Bounds behind;
+    behind.add(glm::vec3(-1, 20, 1)), behind.add(glm::vec3(1, 22, 2));
+    EXPECT_FALSE(culler.hides(behind)) << corner.y;
   }
 }
 
