@@ -21,7 +21,7 @@ class FixedTracedParts final : public scene::TracedScene {
     const std::vector<glm::mat4> pose = scene::rest_pose(*model);
     for (const scene::Part& part : model->parts) {
       const scene::Material& material = model->materials[std::size_t(part.material)];
-      if (material.alpha_mode == scene::Alpha::opaque && !material.refracts())
+      if (material.alpha_mode == scene::Alpha::opaque && !material.refracts() && !part.is_backdrop)
         visit_({part.mesh, world_from_model * pose[std::size_t(part.node)], first_thing_ + placing.thing,
                 placing.is_visible, material.is_double_sided});
     }

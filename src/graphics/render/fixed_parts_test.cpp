@@ -39,6 +39,17 @@ scene::Scene modelled_house_below(bool is_backdrop) {
   return scene;
 }
 
+/// The same as a model that a room draws.
+scene::Scene traced_model_below(bool is_backdrop) {
+  const std::shared_ptr<const scene::Model> model = modelled_house_below(is_backdrop).objects.front().model;
+  scene::Scene scene;
+  const auto trace = [model](const scene::Scene&, scene::TracedScene& traced) {
+    traced.add(model, glm::mat4(1.0f), {});
+  };
+  scene.traced_kinds.push_back({"placed", [](const scene::Scene&) { return 1; }, trace});
+  return scene;
+}
+
 float highest_of(const scene::Scene& scene) {
   shading::Heightfield heights({{-20, -20, 0}, {20, 20, 60}});
   add_fixed_parts(scene, heights);
@@ -46,16 +57,16 @@ float highest_of(const scene::Scene& scene) {
 }
 
 TEST(FixedParts, ABackdropHidesNoSky) {
-  for (const scene::Scene& open :
-       {traced_house_below({.casts_shadow = false, .is_backdrop = true}), modelled_house_below(true)}) {
+  for (const scene::Scene& open : {traced_house_below({.casts_shadow = false, .is_backdrop = true}),
+                                   modelled_house_below(true), traced_model_below(true)}) {
     const Bounds below = bounds_of_fixed_parts(open, true);
     EXPECT_EQ(below.min, glm::vec3(-2, -6, 0));
     EXPECT_EQ(below.max, glm::vec3(5, 6, 9));
     EXPECT_NEAR(highest_of(open), 9.0f, 0.01f);
   }
   // What pictures are to show without its shadow stands there all the same.
-  for (const scene::Scene& covered :
-       {traced_house_below({}), traced_house_below({.casts_shadow = false}), modelled_house_below(false)}) {
+  for (const scene::Scene& covered : {traced_house_below({}), traced_house_below({.casts_shadow = false}),
+                                      modelled_house_below(false), traced_model_below(false)}) {
     EXPECT_EQ(bounds_of_fixed_parts(covered, true).max.z, 50.0f);
     EXPECT_NEAR(highest_of(covered), 50.0f, 0.01f);
   }

@@ -125,7 +125,7 @@ void GpuScene::add_models(const scene::Scene& scene) {
     const int first_material = add_materials(model, model.materials);
     for (std::size_t p = 0; p < model.parts.size(); ++p) {
       const scene::Part& part = model.parts[p];
-      const bool lets_through = model.materials[std::size_t(part.material)].refracts();
+      const bool lets_through = part.is_backdrop || model.materials[std::size_t(part.material)].refracts();
       parts_.push_back({geometry_.add(part.mesh, leaves.of(model, p)), first_material + part.material,
                         part.node, part.mesh.bounds(), part.casts_shadow && !lets_through, part.is_backdrop,
                         0, 0});

@@ -25,7 +25,8 @@ void SceneOccluders::keep_moving_shapes(const scene::Scene& scene, const GpuScen
       int& shape = shape_of_part_[std::size_t(gpu.items()[item++].part)];
       const scene::Material& material = object.model->materials[std::size_t(part.material)];
       const bool is_rigid = object.deformed_meshes.empty() || !part.deformation;
-      if (object.is_dynamic && is_rigid && material.alpha_mode == scene::Alpha::opaque && shape < 0)
+      if (object.is_dynamic && is_rigid && !part.is_backdrop && material.alpha_mode == scene::Alpha::opaque &&
+          shape < 0)
         shape = culler_.add_shape(part.mesh, material.is_double_sided);
     }
 }
