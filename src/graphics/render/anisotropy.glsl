@@ -13,8 +13,10 @@ vec4 base_colour_at(vec2 at, vec2 along_x, vec2 along_y) {
   int taps = int(clamp(ceil(maximum / max(min(length_x, length_y), 1.0f)), 1.0f, 8.0f));
   float level = log2(max(maximum / float(taps), 1e-4f));
   vec4 sum = vec4(0.0f);
-  for (int i = 0; i < taps; ++i)
+  int i = 0;
+  do {  // software renderers run a loop whose condition comes first once more than it has rounds
     sum += textureLod(base_colour_texture, at + ((float(i) + 0.5f) / float(taps) - 0.5f) * longer, level);
+  } while (++i < taps);
   return sum / float(taps);
 #else
   return textureGrad(base_colour_texture, at, along_x, along_y);

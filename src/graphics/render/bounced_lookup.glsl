@@ -8,8 +8,7 @@ uniform highp sampler3D bounced_light_texture;
 // The cell before a surface; without light, and under the whole sky, where the scene has no bounced light.
 BouncedCell bounced_cell(vec3 at, vec3 geometric_normal) {
   BouncedCell before = BouncedCell(vec4(0.0f), vec3(0.0f), vec3(1.0f));
-  int rounds = frame_bounced_size.w > 0.5f ? 1 : 0;  // no branch: a loop without rounds is left out
-  for (int i = 0; i < rounds; ++i) {
+  if (frame_bounced_size.w > 0.5f) {
     BouncedGrid grid = BouncedGrid(frame_bounced_origin.xyz, frame_bounced_size.xyz, frame_bounced_origin.w,
                                    frame_bounced_size.w);
     vec3 cell = bounced_coordinates(grid, at, geometric_normal);

@@ -27,15 +27,16 @@ vec3 unmapped_radiance(vec3 direction, float roughness) {
 float traced_sun(float drawn, float distance_m) {
   float share = drawn, nearest = 0.01f * distance_m;
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  int taps = frame_shadow_extra.y > 0.5f ? 5 : 0;  // no branch: a loop without rounds is left out
-  for (int i = 0; i < taps; ++i) {
+  bool are_traced = frame_shadow_extra.y > 0.5f;
+  int taps = are_traced ? 5 : 1, i = 0;
+  do {
     ivec2 beside = ivec2(int(i == 1) - int(i == 2), int(i == 3) - int(i == 4));
     vec2 traced =
         texelFetch(traced_sun_texture, clamp(pixel + beside, ivec2(0), ivec2(frame_size.xy) - 1), 0).rg;
     float off = abs(traced.g - distance_m) + (i > 0 ? 2e-5f * distance_m : 0.0f);
-    share = off < nearest ? traced.r * sun_cone(to_sun_at(position)) : share;
+    share = are_traced && off < nearest ? traced.r * sun_cone(to_sun_at(position)) : share;
     nearest = min(off, nearest);
-  }
+  } while (++i < taps);
   return share;
 }
 #endif

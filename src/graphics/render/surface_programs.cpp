@@ -53,6 +53,12 @@ Result<SurfacePrograms> SurfacePrograms::create(const SurfaceSource& source,
   return made;
 }
 
+void SurfacePrograms::set(const char* uniform, int value) const {
+  for (const Variants* variants : {&programs_, &one_sample_})
+    for (const gl::Program& program : *variants)
+      if (program.name()) program.set(uniform, value);
+}
+
 const gl::Program* SurfacePrograms::of(const DrawableShader& shader) {
   const auto [entry, is_new] = of_rooms_.try_emplace({shader.vertex_path, shader.surface_path});
   gl::Program& program = entry->second;

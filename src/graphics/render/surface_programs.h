@@ -46,6 +46,9 @@ class SurfacePrograms {
   /// with a message on standard error, if it does not link.
   const gl::Program* of(const DrawableShader& shader);
 
+  /// Sets a uniform of all programs of the scene's materials, as gl::Program::set.
+  void set(const char* uniform, int value) const;
+
  private:
   SurfaceSource source_;
   std::map<std::pair<std::string, std::string>, gl::Program> of_rooms_;  ///< by the room's two files
