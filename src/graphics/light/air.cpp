@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graphics/shading/sun.h"
+
 namespace parvis::light {
 namespace {
 
@@ -47,7 +49,7 @@ bool meets_ground(double r, double mu) {
 double visible_disc(double r, double sun_mu) {
   const double ratio = std::min(ground_radius_m / r, 1.0);
   const double horizon = std::acos(-std::sqrt(1.0 - ratio * ratio));  // angle from the zenith
-  const double above = (horizon - std::acos(std::clamp(sun_mu, -1.0, 1.0))) / sun_radius_rad;
+  const double above = (horizon - std::acos(std::clamp(sun_mu, -1.0, 1.0))) / double(shading::sun_radius_rad);
   if (above >= 1.0) return 1.0;
   if (above <= -1.0) return 0.0;
   // the segment of a circle

@@ -12,9 +12,6 @@
 namespace parvis::light {
 
 inline constexpr double ground_radius_m = 6'360'000.0, top_radius_m = 6'460'000.0;
-/// Cosine and radius of the sun's disc, as seen from the earth: 0.2666 degrees.
-inline constexpr double sun_radius_rad = 0.004653;
-inline constexpr double sun_solid_angle_sr = 6.8018e-5;
 
 /// Densities at a height, relative to where each is greatest, or columns of them along a ray in metres.
 struct Densities {

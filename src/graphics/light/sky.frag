@@ -1,5 +1,6 @@
 // The sky behind all else, and in views for people the sun's disc.
 #include "graphics/render/sky_lookup.glsl"
+#include "graphics/shading/sun.glsl"
 
 uniform mat4 world_from_clip;
 uniform float shows_sun;  // 1, or 0: a cube face has no texel so small, and the shader of surfaces has the
@@ -10,11 +11,10 @@ out vec4 radiance;
 void main() {
   vec4 far = world_from_clip * vec4(screen_uv * 2.0f - 1.0f, 1.0f, 1.0f);
   vec3 direction = normalize(far.xyz / far.w - viewer_position.xyz);
-  const float sun_radius = 0.00465f;  // radians
-  float from_centre = length(direction - frame_to_sun.xyz) / sun_radius;
+  float from_centre = length(direction - frame_to_sun.xyz) / sun_radius_rad;
   float share = clamp((1.0f - from_centre) / max(fwidth(from_centre), 1e-6f) + 0.5f, 0.0f, 1.0f);
   float is_sun = frame_spot.w > -1.5f ? 0.0f : shows_sun;
-  vec3 sun = is_sun * share / (3.14159265f * sun_radius * sun_radius) * frame_sun_irradiance.rgb;
+  vec3 sun = is_sun * share / sun_solid_angle_sr * frame_sun_irradiance.rgb;
   radiance =
       vec4(min(sky_radiance(direction, 0.0f) + sun, vec3(30000.0f)), 1.0f);  // the target holds half floats
 }

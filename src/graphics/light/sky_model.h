@@ -11,6 +11,7 @@
 #include "base/result.h"
 #include "graphics/light/air.h"
 #include "graphics/light/solar_position.h"
+#include "graphics/shading/sun.h"
 
 namespace parvis::light {
 
@@ -35,7 +36,7 @@ class SkyModel {
   /// On a plane that faces the sun; fades while it sets.
   glm::vec3 sun_irradiance_xyz() const { return sun_irradiance_; }
   /// Mean over the disc (getSunSpectralRadiance).
-  glm::vec3 sun_radiance_xyz() const { return sun_irradiance_ / float(sun_solid_angle_sr); }
+  glm::vec3 sun_radiance_xyz() const { return sun_irradiance_ / shading::sun_solid_angle_sr; }
 
   /// How much of the light from a direction arrives, 0 to 1.
   using Visibility = std::function<float(glm::vec3 direction)>;

@@ -169,8 +169,7 @@ TEST(SkyModel, TheRadianceOfTheSunIsThatOfItsDiscInPictures) {
   const glm::vec3 radiance = sky->sun_radiance_xyz();
   const reference::SunDisc disc({sky->to_sun(), rec709_from_xyz(sky->sun_irradiance_xyz())});
   const glm::vec3 shown = rec709_from_xyz(radiance);
-  // Half of 0.533 degrees there; here 0.2 % more in area.
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c] / disc.radiance()[c], 1.0f, 3e-3f) << c;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c] / disc.radiance()[c], 1.0f, 1e-5f) << c;
   // 1.6e9 cd/m2 above the air; some of it is lost on the way.
   EXPECT_NEAR(lumens_per_watt * double(radiance.y), 1.4e9, 0.2e9);
   EXPECT_EQ(sky_of(SkyKind::atmosphere, 2.5, -4.0)->sun_radiance_xyz(), glm::vec3(0.0f)) << "it has set";

@@ -5,43 +5,25 @@
 #include <span>
 
 #include "base/parallel.h"
-#include "graphics/light/air.h"
 #include "graphics/light/disc_patterns.h"
+#include "graphics/light/own_faces.h"
 #include "graphics/light/ray_packet.h"
 #include "graphics/reference/traced_hit.h"
 #include "graphics/shading/shadow.h"
 #include "graphics/shading/spherical_harmonics.h"
+#include "graphics/shading/sun.h"
 
 namespace parvis::light {
 namespace {
 
 constexpr float pi = 3.14159265f;
 constexpr std::size_t bits = 64;
-/// Of surfaces that rooms draw by themselves: photographs of walls.
-constexpr float wall_albedo = 0.35f;
-/// Share of the sky before a surface that is open, where what the surface gives back is wanted.
-constexpr float open_share = 0.5f;
 /// Fewer rays than these look spotted: interpolated visibility is better.
 constexpr int min_rays = 16, max_rays = 256;
 /// To the sun's disc from a vertex whose sky is interpolated: what lies in the edge of a shadow.
 constexpr int max_quick_sun_rays = 4;
 
 glm::vec3 lifted(const LitVertex& vertex) { return vertex.position + lift_m * vertex.normal; }
-
-/// Mean of a texture, or white where the surface has none.
-glm::vec3 mean_of(const reference::PlacedPart& place, int texture) {
-  if (texture == scene::no_index) return glm::vec3(1.0f);
-  return glm::vec3((*place.textures)[std::size_t(texture)].mean());
-}
-
-/// Mean colour that a surface which a ray hit gives back matt. A surface texture has metallic in blue
-/// (glTF 2.0, section 3.9.2), by which the factor, 1 unless it is given, is multiplied.
-glm::vec3 albedo_of(const reference::PlacedPart& place) {
-  if (place.surface) return glm::vec3(wall_albedo);
-  const scene::Material& material = *place.material;
-  const float metallic = material.metallic * mean_of(place, material.surface_texture).z;
-  return (1.0f - metallic) * material.base_colour * mean_of(place, material.base_colour_texture);
-}
 
 /// Weighted by the cosine with the frame's normal.
 glm::vec3 on_hemisphere(const reference::Frame& frame, glm::vec2 p) {
@@ -89,7 +71,7 @@ void each_sun_ray(const reference::RayScene& scene, const SkyTable& sky,
     const reference::Frame frame = turned_frame(sky.to_sun(), v);
     for (const DiscPoint& point : disc.of(v)) {
       const glm::vec3 direction =
-          glm::normalize(frame.in_world(glm::vec3(float(sun_radius_rad) * point.at, 1.0f)));
+          glm::normalize(frame.in_world(glm::vec3(shading::sun_radius_rad * point.at, 1.0f)));
       if (!(glm::dot(direction, vertex.normal) > 0.0f)) continue;
       packet.add(from, direction, {v, std::size_t(point.ray)});
       if (packet.is_full()) answer();
@@ -117,6 +99,10 @@ glm::vec2 means_of_halves(float sum, float sum_of_odd, int count, int odd_count)
           sum_of_odd / float(std::max(1, odd_count))};
 }
 
+void add_to_halves(Halves& halves, glm::vec2 means) {
+  halves.first.push_back(means.x), halves.second.push_back(means.y);
+}
+
 /// The greens of all.
 std::vector<float> greens(const std::vector<glm::vec3>& colours) {
   std::vector<float> result;
@@ -125,46 +111,71 @@ std::vector<float> greens(const std::vector<glm::vec3>& colours) {
   return result;
 }
 
+/// Calls `light(begin, end)` for all vertices that share a turn.
+template <class Light>
+void each_turn(std::size_t vertices, const Light& light) {
+  parallel_for((vertices + vertices_per_turn - 1) / vertices_per_turn,
+               [&](std::size_t turn) {
+                 const std::size_t begin = turn * vertices_per_turn;
+                 light(begin, std::min(begin + vertices_per_turn, vertices));
+               },
+               2);
+}
+
+/// What surfaces give back of a sky.
+glm::vec3 light_of(const std::array<glm::vec3, 9>& transfer, const std::array<glm::vec3, 9>& harmonics) {
+  glm::vec3 sum(0.0f);
+  for (std::size_t k = 0; k < harmonics.size(); ++k) sum += transfer[k] * harmonics[k];
+  return sum;
+}
+
 }  // namespace
 
 VertexLight::VertexLight(std::vector<LitVertex> vertices) { restart(std::move(vertices)); }
 
 void VertexLight::restart(std::vector<LitVertex> vertices) {
-  vertices_ = std::move(vertices);
-  restart();
+  own_hits_.clear();
+  shift(std::move(vertices));
 }
 
 void VertexLight::restart() {
   sums_.assign(vertices_.size(), {});
-  open_.clear(), transfers_.clear();
+  open_.clear(), bounces_.clear(), own_.clear();
   rays_ = sunlit_rays_ = sun_rays_ = 0;
+}
+
+void VertexLight::shift(std::vector<LitVertex> vertices) {
+  vertices_ = std::move(vertices);
+  restart();
 }
 
 bool VertexLight::is_open(std::size_t v, std::size_t ray) const {
   return (open_[ray / bits * vertices_.size() + v] >> ray % bits & 1u) != 0;
 }
 
-void VertexLight::add_from_sky(std::size_t v, std::size_t ray, glm::vec3 radiance) {
-  sums_[v].sky += radiance;
-  if (ray % 2 == 1) sums_[v].odd_sky += radiance.y;
-}
-
 /// What surfaces would give back of the sun if all of them saw it, per bounce.
 glm::vec3 VertexLight::unshadowed(std::size_t v) const {
-  glm::vec3 sum(0.0f);
-  for (std::size_t k = 0; k < sun_harmonics_.size(); ++k) sum += transfers_[v][k] * sun_harmonics_[k];
-  return glm::max(sum, glm::vec3(0.0f)) / (open_share * float(bounces_of(rays_)));
+  glm::vec3 sum = light_of(bounces_[v].transfer, sun_harmonics_) / float(bounces_of(rays_));
+  if (!own_.empty()) sum += light_of(own_[v].transfer, sun_harmonics_) / float(rays_);
+  return glm::max(sum, glm::vec3(0.0f)) / open_share;
+}
+
+/// What rays have found that surfaces give back of it, per bounce.
+glm::vec3 VertexLight::mean_bounced_sun(std::size_t v) const {
+  glm::vec3 mean = bounces_[v].sums.sun / float(std::max(1, bounces_of(sunlit_rays_)));
+  if (!own_.empty()) mean += own_[v].sums.sun / float(std::max(1, sunlit_rays_));
+  return mean;
 }
 
 /// Of all that surfaces would give back of the sun if they saw it, what they do, by the rays so far.
 float VertexLight::share_in_sun() const {
-  if (transfers_.empty() || sunlit_rays_ == 0) return former_share_in_sun_;
+  if (bounces_.empty() || sunlit_rays_ == 0) return former_share_in_sun_;
   double product = 0.0, square = 0.0;
-  for (std::size_t v = 0; v < sums_.size(); ++v) {
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
     const double without = double(unshadowed(v).y);
-    product += without * double(sums_[v].bounced_sun.y), square += without * without;
+    product += without * double(mean_bounced_sun(v).y), square += without * without;
   }
-  return square > 0.0 ? float(product / square / double(bounces_of(sunlit_rays_))) : former_share_in_sun_;
+  return square > 0.0 ? float(product / square) : former_share_in_sun_;
 }
 
 void VertexLight::follow(const SkyTable& sky) {
@@ -172,8 +183,11 @@ void VertexLight::follow(const SkyTable& sky) {
   sun_harmonics_ = harmonics_of_sun(sky);
   sunlit_rays_ = sun_rays_ = 0;
   if (rays_ == 0) return;
-  const float odd_part = float(odd_bounces_of(rays_)) / float(bounces_of(rays_));
   const DiscPatterns patterns(0, rays_);
+  const auto follow = [&](Bounces& bounces, int count, int odd) {
+    bounces.sums = {.sky = glm::max(light_of(bounces.transfer, sky.harmonics()), glm::vec3(0.0f))};
+    bounces.sums.odd_sky = float(odd) / float(count) * bounces.sums.sky.y;
+  };
   parallel_for(
       vertices_.size(),
       [&](std::size_t v) {
@@ -181,12 +195,9 @@ void VertexLight::follow(const SkyTable& sky) {
         const reference::Frame frame = turned_frame(vertices_[v].normal, v);
         for (const DiscPoint& point : patterns.of(v))
           if (is_open(v, std::size_t(point.ray)))
-            add_from_sky(v, std::size_t(point.ray), sky.radiance(on_hemisphere(frame, point.at)));
-        if (transfers_.empty()) return;
-        for (std::size_t k = 0; k < transfers_[v].size(); ++k)
-          sums_[v].bounced += transfers_[v][k] * sky.harmonics()[k];
-        sums_[v].bounced = glm::max(sums_[v].bounced, glm::vec3(0.0f));
-        sums_[v].odd_bounced = odd_part * sums_[v].bounced.y;
+            sums_[v].add_sky(std::size_t(point.ray), sky.radiance(on_hemisphere(frame, point.at)));
+        if (!bounces_.empty()) follow(bounces_[v], bounces_of(rays_), odd_bounces_of(rays_));
+        if (!own_.empty()) follow(own_[v], rays_, rays_ / 2);
       },
       2 * vertices_per_turn);
 }
@@ -194,112 +205,227 @@ void VertexLight::follow(const SkyTable& sky) {
 /// The ray found the sky.
 void VertexLight::open(std::size_t v, std::size_t ray, glm::vec3 radiance) {
   open_[ray / bits * vertices_.size() + v] |= std::uint64_t(1) << ray % bits;
-  add_from_sky(v, ray, radiance);
+  sums_[v].add_sky(ray, radiance);
 }
 
-/// Of the rays of a packet that nothing stops; clears it.
-void VertexLight::add_open(Packet& packet, const SkyTable& sky) {
-  const std::uint32_t blocked = packet.blocked();
-  for (std::size_t i = 0; i < packet.count(); ++i)
-    if ((blocked >> i & 1u) == 0)
-      open(packet.tag(i).vertex, packet.tag(i).ray, sky.radiance(packet.direction(i)));
-  packet.clear();
-}
-
-/// From the sky, and from matt surfaces, which give back that of the sun, by a ray each, and of the sky as if
-/// a share of what lies before the surface were open; clears the packet.
-void VertexLight::add_seen(const reference::RayScene& scene, Packet& packet, const SkyTable& sky,
-                           Finds finds) {
-  Packet to_sun(scene);
-  std::array<glm::vec3, reference::RayScene::packet_size> by_sun;  // of those whose surfaces face it
-  const std::span<const std::optional<reference::Hit>> hits = packet.hits();
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    const std::optional<reference::Hit>& seen = hits[i];
-    const auto [v, ray] = packet.tag(i);
-    if (!seen) {
-      if (finds == Finds::all) open(v, ray, sky.radiance(packet.direction(i)));
-      continue;
-    }
-    const reference::Hit& hit = *seen;
-    const scene::TracedHit at =
-        reference::traced_hit(*hit.place, hit.triangle, {hit.u, hit.v}, -packet.direction(i), 0.0f);
-    if (!(glm::dot(at.normal, at.normal) > 0.5f)) continue;  // a sliver without a normal
-    const glm::vec3 given_back = albedo_of(*hit.place) / pi;
-    if (finds == Finds::all) {
-      const glm::vec3 bounced = given_back * open_share * sky.irradiance(at.normal);
-      sums_[v].bounced += bounced;
-      if (ray % 2 == 1) sums_[v].odd_bounced += bounced.y;
-      const std::array<float, 9> basis = shading::sh_basis(at.normal);
-      for (std::size_t k = 0; k < basis.size(); ++k) transfers_[v][k] += given_back * open_share * basis[k];
-    }
-    const float facing = sky.spot() ? 0.0f : glm::dot(sky.to_sun(), at.normal);
-    if (!(facing > 0.0f)) continue;
-    by_sun[to_sun.count()] = given_back * facing * sky.sun_irradiance();
-    to_sun.add(at.position + lift_m * at.normal, sky.to_sun(), {v, ray});
+/// The rays of vertices that share a turn, each ray of all of them, then the next.
+class VertexLight::Turn {
+ public:
+  Turn(VertexLight& light, const reference::RayScene& scene, const SkyTable& sky, const OwnFaces* own,
+       Finds finds, std::size_t begin, std::size_t end)
+      : light_(light),
+        sky_(sky),
+        own_(own),
+        finds_(finds),
+        begin_(begin),
+        end_(end),
+        open_(scene, meets_of(own)),
+        seen_(scene, meets_of(own)),
+        before_own_(scene, meets_of(own)),
+        to_sun_(scene) {
+    frames_.reserve(end - begin);
+    for (std::size_t v = begin; v < end; ++v) frames_.push_back(turned_frame(light.vertices_[v].normal, v));
   }
-  const std::uint32_t blocked = to_sun.blocked();
-  for (std::size_t i = 0; i < to_sun.count(); ++i) {
-    if ((blocked >> i & 1u) != 0) continue;
-    const auto [v, ray] = to_sun.tag(i);
-    sums_[v].bounced_sun += by_sun[i];
-    if (ray % 2 == 1) sums_[v].odd_bounced_sun += by_sun[i].y;
-  }
-  packet.clear();
-}
 
-/// Of vertices that share a turn: each ray of all of them, then the next.
-void VertexLight::add_to_sky(const reference::RayScene& scene, const SkyTable& sky, std::size_t begin,
-                             std::size_t end, const DiscPatterns& disc, Blocked blocked, Finds finds) {
-  std::vector<reference::Frame> frames;
-  frames.reserve(end - begin);
-  for (std::size_t v = begin; v < end; ++v) frames.push_back(turned_frame(vertices_[v].normal, v));
-  Packet packet(scene);
-  const auto each = [&](std::span<const DiscPoint> points, const auto& take) {
+  /// `brings`: the rays bring what surfaces that they hit give back.
+  void add(std::span<const DiscPoint> points, bool brings) {
     for (const DiscPoint& point : points)
-      for (std::size_t v = begin; v < end; ++v) {
-        packet.add(lifted(vertices_[v]), on_hemisphere(frames[v - begin], point.at),
-                   {v, std::size_t(point.ray)});
-        if (packet.is_full()) take();
+      for (std::size_t v = begin_; v < end_; ++v) {
+        const auto ray = std::size_t(point.ray);
+        const glm::vec3 from = lifted(light_.vertices_[v]),
+                        direction = on_hemisphere(frames_[v - begin_], point.at);
+        const OwnHit* hit = own_ ? &light_.own_hit(v, ray) : nullptr;
+        if (hit && hit->face != no_face)
+          add_before_own(from, direction, {v, ray}, *hit);
+        else if (brings)
+          add_seen(from, direction, {v, ray});
+        else if (finds_ == Finds::all)
+          add_open(from, direction, {v, ray});
       }
-    take();
+  }
+  /// Answers what is left.
+  void end() {
+    answer_before_own();
+    answer_seen();
+    answer_open();
+    answer_sun();
+  }
+
+ private:
+  static reference::Meets meets_of(const OwnFaces* own) {
+    return own ? reference::Meets::others : reference::Meets::all;
+  }
+
+  void add_open(glm::vec3 from, glm::vec3 direction, Packet::Tag tag) {
+    open_.add(from, direction, tag);
+    if (open_.is_full()) answer_open();
+  }
+  void add_seen(glm::vec3 from, glm::vec3 direction, Packet::Tag tag) {
+    seen_.add(from, direction, tag);
+    if (seen_.is_full()) answer_seen();
+  }
+  void add_before_own(glm::vec3 from, glm::vec3 direction, Packet::Tag tag, const OwnHit& hit) {
+    before_own_.add(from, direction, tag, hit.distance_m);
+    if (before_own_.is_full()) answer_before_own();
+  }
+  void add_to_sun(glm::vec3 from, Packet::Tag tag, Bounces& bounces, glm::vec3 light) {
+    to_sun_.add(from, sky_.to_sun(), tag);
+    by_sun_[to_sun_.count() - 1] = {&bounces, light};
+    if (to_sun_.is_full()) answer_sun();
+  }
+
+  void answer_open() {
+    const std::uint32_t blocked = open_.blocked();
+    for (std::size_t i = 0; i < open_.count(); ++i)
+      if ((blocked >> i & 1u) == 0)
+        light_.open(open_.tag(i).vertex, open_.tag(i).ray, sky_.radiance(open_.direction(i)));
+    open_.clear();
+  }
+
+  /// From the sky, and from matt surfaces, which give back that of the sun, by a ray each, and of the sky as
+  /// if a share of what lies before the surface were open.
+  void answer_seen() {
+    const std::span<const std::optional<reference::Hit>> hits = seen_.hits();
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      const auto [v, ray] = seen_.tag(i);
+      if (!hits[i]) {
+        if (finds_ == Finds::all) light_.open(v, ray, sky_.radiance(seen_.direction(i)));
+        continue;
+      }
+      const reference::Hit& hit = *hits[i];
+      const scene::TracedHit at =
+          reference::traced_hit(*hit.place, hit.triangle, {hit.u, hit.v}, -seen_.direction(i), 0.0f);
+      if (!(glm::dot(at.normal, at.normal) > 0.5f)) continue;  // a sliver without a normal
+      const glm::vec3 given_back = albedo_of(*hit.place) / pi;
+      Bounces& bounces = light_.bounces_[v];
+      if (finds_ == Finds::all)
+        add_sky(bounces, ray, given_back, given_back * open_share * sky_.irradiance(at.normal),
+                shading::sh_basis(at.normal));
+      const float facing = sky_.spot() ? 0.0f : glm::dot(sky_.to_sun(), at.normal);
+      if (facing > 0.0f)
+        add_to_sun(at.position + lift_m * at.normal, {v, ray}, bounces,
+                   given_back * facing * sky_.sun_irradiance());
+    }
+    seen_.clear();
+  }
+
+  static void add_sky(Bounces& bounces, std::size_t ray, glm::vec3 given_back, glm::vec3 light,
+                      const std::array<float, 9>& basis) {
+    bounces.sums.add_sky(ray, light);
+    for (std::size_t k = 0; k < basis.size(); ++k) bounces.transfer[k] += given_back * open_share * basis[k];
+  }
+
+  /// What hits the object itself, unless other things stand before that.
+  void answer_before_own() {
+    const std::uint32_t blocked = before_own_.blocked();
+    for (std::size_t i = 0; i < before_own_.count(); ++i) {
+      const auto [v, ray] = before_own_.tag(i);
+      const glm::vec3 from = before_own_.from(i), direction = before_own_.direction(i);
+      if ((blocked >> i & 1u) != 0) {
+        if (brings_bounce(int(ray))) add_seen(from, direction, {v, ray});
+        continue;
+      }
+      const OwnHit& hit = light_.own_hit(v, ray);
+      const OwnFaces::Face& face = own_->face(hit.face);
+      Bounces& bounces = light_.own_[v];
+      if (finds_ == Finds::all) add_sky(bounces, ray, face.given_back, face.sky, face.basis);
+      bounces.sums.add_sun(ray, face.sun);
+      if (brings_bounce(int(ray))) add_difference(from + hit.distance_m * direction, {v, ray}, face);
+    }
+    before_own_.clear();
+  }
+
+  /// The sun at a point of a face, less that of the whole face, which the vertex has been given for all of
+  /// its rays.
+  void add_difference(glm::vec3 point, Packet::Tag tag, const OwnFaces::Face& face) {
+    const float facing = sky_.spot() ? 0.0f : glm::dot(sky_.to_sun(), face.normal);
+    if (!(facing > 0.0f)) return;
+    Bounces& bounces = light_.bounces_[tag.vertex];
+    bounces.sums.add_sun(tag.ray, -face.sun);
+    add_to_sun(point + lift_m * face.normal, tag, bounces, face.given_back * facing * sky_.sun_irradiance());
+  }
+
+  void answer_sun() {
+    const std::uint32_t blocked = to_sun_.blocked();
+    for (std::size_t i = 0; i < to_sun_.count(); ++i)
+      if ((blocked >> i & 1u) == 0) by_sun_[i].bounces->sums.add_sun(to_sun_.tag(i).ray, by_sun_[i].light);
+    to_sun_.clear();
+  }
+
+  VertexLight& light_;
+  const SkyTable& sky_;
+  const OwnFaces* own_;
+  Finds finds_;
+  std::size_t begin_, end_;
+  std::vector<reference::Frame> frames_;
+  Packet open_, seen_, before_own_, to_sun_;
+  /// What the rays to the sun bring, and to what.
+  struct BySun {
+    Bounces* bounces;
+    glm::vec3 light;
   };
-  const bool has_bounces = blocked == Blocked::bounces;
-  if (has_bounces) each(disc.bounces_of_vertex(begin), [&] { add_seen(scene, packet, sky, finds); });
-  if (finds == Finds::all)
-    each(has_bounces ? disc.others_of_vertex(begin) : disc.of(begin), [&] { add_open(packet, sky); });
-}
+  std::array<BySun, reference::RayScene::packet_size> by_sun_;
+};
 
 void VertexLight::add_rays(const reference::RayScene& scene, const SkyTable& sky, int first, int count,
-                           Blocked blocked, Finds finds) {
+                           Blocked blocked, const OwnFaces* own, Finds finds) {
   const int sun_rays = std::max(1, count / 4);
   const DiscPatterns to_sky(first, count), to_sun(sun_rays_, sun_rays);
-  const std::size_t groups = (vertices_.size() + vertices_per_turn - 1) / vertices_per_turn;
-  parallel_for(
-      groups,
-      [&](std::size_t group) {
-        const std::size_t begin = group * vertices_per_turn,
-                          end = std::min(begin + vertices_per_turn, vertices_.size());
-        add_to_sky(scene, sky, begin, end, to_sky, blocked, finds);
-        if (!has_sun(sky)) return;
-        each_sun_ray(scene, sky, vertices_, begin, end, to_sun,
-                     [&](std::size_t v, std::size_t ray, glm::vec3 light) {
-                       sums_[v].sun += light;
-                       if (ray % 2 == 1) sums_[v].odd_sun += light.y;
-                     });
-      },
-      2);
+  const bool has_bounces = blocked == Blocked::bounces;
+  each_turn(vertices_.size(), [&](std::size_t begin, std::size_t end) {
+    Turn turn(*this, scene, sky, own, finds, begin, end);
+    if (has_bounces) turn.add(to_sky.bounces_of_vertex(begin), true);
+    if (finds == Finds::all || own)
+      turn.add(has_bounces ? to_sky.others_of_vertex(begin) : to_sky.of(begin), false);
+    turn.end();
+    if (has_sun(sky))
+      each_sun_ray(scene, sky, vertices_, begin, end, to_sun,
+                   [&](std::size_t v, std::size_t ray, glm::vec3 light) { sums_[v].add_sun(ray, light); });
+  });
   sunlit_rays_ += count, sun_rays_ += sun_rays;
 }
 
-void VertexLight::refine(const reference::RayScene& scene, const SkyTable& sky, int rays, Blocked blocked) {
+/// What the first `rays` of each vertex hit of its own object.
+void VertexLight::find_own(const reference::RayScene& scene, const OwnFaces& own, int rays) {
+  const int known = vertices_.empty() ? rays : int(own_hits_.size() / vertices_.size());
+  if (known >= rays) return;
+  own_hits_.resize(std::size_t(rays) * vertices_.size(), {no_face, 0.0f});
+  const DiscPatterns patterns(known, rays - known);
+  each_turn(vertices_.size(), [&](std::size_t begin, std::size_t end) {
+    Packet packet(scene, reference::Meets::apart);
+    const auto answer = [&] {
+      const std::span<const std::optional<reference::Hit>> hits = packet.hits();
+      for (std::size_t i = 0; i < hits.size(); ++i)
+        if (hits[i])
+          own_hits_[packet.tag(i).ray * vertices_.size() + packet.tag(i).vertex] = {
+              own.number(*hits[i], packet.direction(i)), hits[i]->distance_m};
+      packet.clear();
+    };
+    std::vector<reference::Frame> frames;
+    for (std::size_t v = begin; v < end; ++v) frames.push_back(turned_frame(vertices_[v].normal, v));
+    for (const DiscPoint& point : patterns.of(begin))
+      for (std::size_t v = begin; v < end; ++v) {
+        packet.add(lifted(vertices_[v]), on_hemisphere(frames[v - begin], point.at),
+                   {v, std::size_t(point.ray)});
+        if (packet.is_full()) answer();
+      }
+    answer();
+  });
+}
+
+void VertexLight::refine(const reference::RayScene& scene, const SkyTable& sky, int rays, Blocked blocked,
+                         const OwnFaces* own) {
+  if (blocked != Blocked::bounces) own = nullptr;
+  if (rays_ > 0 && (own != nullptr) == own_.empty()) restart();
   sun_harmonics_ = harmonics_of_sun(sky);
   const int again = std::min(rays, rays_ - sunlit_rays_);
-  if (again > 0) add_rays(scene, sky, sunlit_rays_, again, blocked, Finds::sun);
+  if (again > 0) add_rays(scene, sky, sunlit_rays_, again, blocked, own, Finds::sun);
   const int added = rays - again;
   if (added <= 0) return;
-  if (blocked == Blocked::bounces) transfers_.resize(vertices_.size());
+  if (blocked == Blocked::bounces) bounces_.resize(vertices_.size());
+  if (own) own_.resize(vertices_.size()), find_own(scene, *own, rays_ + added);
   open_.resize((std::size_t(rays_ + added) + bits - 1) / bits * vertices_.size());
-  add_rays(scene, sky, rays_, added, blocked, Finds::all);
+  add_rays(scene, sky, rays_, added, blocked, own, Finds::all);
   rays_ += added;
 }
 
@@ -308,31 +434,41 @@ void VertexLight::refine(const reference::RayScene& scene, const SkyTable& sky, 
 /// how much that says about each.
 std::vector<glm::vec3> VertexLight::bounced_sun() const {
   std::vector<glm::vec3> result(vertices_.size(), glm::vec3(0.0f));
-  if (transfers_.empty()) return result;
-  const int found = bounces_of(sunlit_rays_), odd = odd_bounces_of(sunlit_rays_);
-  for (std::size_t v = 0; v < result.size(); ++v)
-    result[v] = sums_[v].bounced_sun / float(std::max(1, found));
+  if (bounces_.empty()) return result;
+  for (std::size_t v = 0; v < result.size(); ++v) result[v] = mean_bounced_sun(v);
   if (sunlit_rays_ == rays_) return result;
   const float share = share_in_sun();
   std::vector<glm::vec3> guess;
   guess.reserve(result.size());
   for (std::size_t v = 0; v < result.size(); ++v) guess.push_back(share * unshadowed(v));
-  if (odd == 0) return guess;
+  if (odd_bounces_of(sunlit_rays_) == 0) return guess;
   Halves halves;
-  for (const Sums& sums : sums_) {
-    const glm::vec2 means = means_of_halves(sums.bounced_sun.y, sums.odd_bounced_sun, found, odd);
-    halves.first.push_back(means.x), halves.second.push_back(means.y);
-  }
+  for (std::size_t v = 0; v < result.size(); ++v) add_to_halves(halves, halves_of_bounced_sun(v));
   const float weight = weight_of_rays(greens(guess), halves);
   for (std::size_t v = 0; v < result.size(); ++v) result[v] = glm::mix(guess[v], result[v], weight);
   return result;
 }
 
+/// By even and by odd rays.
+glm::vec2 VertexLight::halves_of_bounced_sun(std::size_t v) const {
+  glm::vec2 means(0.0f);
+  if (!bounces_.empty())
+    means = means_of_halves(bounces_[v].sums.sun.y, bounces_[v].sums.odd_sun, bounces_of(sunlit_rays_),
+                            odd_bounces_of(sunlit_rays_));
+  if (!own_.empty())
+    means += means_of_halves(own_[v].sums.sun.y, own_[v].sums.odd_sun, sunlit_rays_, sunlit_rays_ / 2);
+  return means;
+}
+
 std::vector<glm::vec3> VertexLight::sky_irradiance() const {
   if (rays_ == 0) return std::vector<glm::vec3>(vertices_.size(), glm::vec3(0.0f));
   std::vector<glm::vec3> result = bounced_sun();
-  for (std::size_t v = 0; v < result.size(); ++v)
-    result[v] = pi * (sums_[v].sky / float(rays_) + sums_[v].bounced / float(bounces_of(rays_)) + result[v]);
+  for (std::size_t v = 0; v < result.size(); ++v) {
+    result[v] += sums_[v].sky / float(rays_);
+    if (!bounces_.empty()) result[v] += bounces_[v].sums.sky / float(bounces_of(rays_));
+    if (!own_.empty()) result[v] += own_[v].sums.sky / float(rays_);
+    result[v] *= pi;
+  }
   return result;
 }
 
@@ -352,24 +488,21 @@ std::vector<glm::vec3> VertexLight::irradiance() const {
 
 Halves VertexLight::halves_of_sky() const {
   Halves halves;
-  const int bounces = bounces_of(rays_), odd_bounces = odd_bounces_of(rays_),
-            sunlit = bounces_of(sunlit_rays_), odd_sunlit = odd_bounces_of(sunlit_rays_);
-  for (const Sums& sums : sums_) {
-    const glm::vec2 means =
-        pi * (means_of_halves(sums.sky.y, sums.odd_sky, rays_, rays_ / 2) +
-              means_of_halves(sums.bounced.y, sums.odd_bounced, bounces, odd_bounces) +
-              means_of_halves(sums.bounced_sun.y, sums.odd_bounced_sun, sunlit, odd_sunlit));
-    halves.first.push_back(means.x), halves.second.push_back(means.y);
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    glm::vec2 means = means_of_halves(sums_[v].sky.y, sums_[v].odd_sky, rays_, rays_ / 2);
+    if (!bounces_.empty())
+      means += means_of_halves(bounces_[v].sums.sky.y, bounces_[v].sums.odd_sky, bounces_of(rays_),
+                               odd_bounces_of(rays_));
+    if (!own_.empty()) means += means_of_halves(own_[v].sums.sky.y, own_[v].sums.odd_sky, rays_, rays_ / 2);
+    add_to_halves(halves, pi * (means + halves_of_bounced_sun(v)));
   }
   return halves;
 }
 
 Halves VertexLight::halves_of_sun() const {
   Halves halves;
-  for (const Sums& sums : sums_) {
-    const glm::vec2 means = means_of_halves(sums.sun.y, sums.odd_sun, sun_rays_, sun_rays_ / 2);
-    halves.first.push_back(means.x), halves.second.push_back(means.y);
-  }
+  for (const Sums& sums : sums_)
+    add_to_halves(halves, means_of_halves(sums.sun.y, sums.odd_sun, sun_rays_, sun_rays_ / 2));
   return halves;
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/random.h"
+#include "graphics/light/own_faces.h"
 #include "graphics/light/test_box.h"
 
 namespace parvis::light {
@@ -184,6 +185,99 @@ TEST(VertexLight, EstimatesWhatSurfacesGiveBackOfANewSun) {
   light.follow(day);
   EXPECT_LT(rmse_percent(light.sky_irradiance(), by_day), 0.7 * rmse_percent(by_night, by_day))
       << "without a ray";
+}
+
+/// A crown of leaves that may move, beside the box.
+struct Crown {
+  static constexpr int object = 1;
+  scene::Scene scene = box_on_a_plain({-5, -5, 0}, {5, 6, 10});
+
+  Crown() {
+    Random random(4);
+    const auto any = [&] { return random.uniform(-1.0f, 1.0f); };
+    scene::Part part;
+    for (int leaf = 0; leaf < 150; ++leaf) {
+      const glm::vec3 middle(any(), any(), 2.0f + any()),
+          normal = glm::normalize(glm::vec3(any(), any(), 0.8f)),
+          right = 0.3f * glm::normalize(glm::cross(normal, glm::vec3(0, 1, 0))),
+          up = glm::cross(normal, right);
+      const auto first = std::uint32_t(part.mesh.positions.size());
+      for (const glm::vec3 corner : {-right - up, right - up, right + up, up - right}) {
+        part.mesh.positions.push_back(middle + corner);
+        part.mesh.normals.push_back(normal);
+        part.mesh.uvs.emplace_back(0.0f);
+      }
+      for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) part.mesh.indices.push_back(first + k);
+    }
+    auto model = std::make_shared<scene::Model>();
+    model->materials.emplace_back();
+    model->parts.push_back(std::move(part));
+    scene::Object crown;
+    crown.model = model, crown.is_dynamic = true;
+    scene.objects.push_back(crown);
+    move({8, 0, 0});
+  }
+  void move(glm::vec3 to) { scene.objects[object].world_from_model[3] = glm::vec4(to, 1.0f); }
+  std::vector<LitVertex> vertices() const {
+    const glm::vec3 at(scene.objects[object].world_from_model[3]);
+    const Mesh& mesh = scene.objects[object].mesh(0);
+    std::vector<LitVertex> vertices;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+      vertices.push_back({mesh.positions[v] + at, mesh.normals[v]});
+    return vertices;
+  }
+};
+
+/// What an object's faces give back to its vertices agrees with what rays find of them one by one, also where
+/// other things stand among the leaves.
+TEST(VertexLight, OwnFacesBringTheLightThatRaysFindOneByOne) {
+  for (const float east : {8.0f, 5.4f}) {  // free, and half inside the box
+    Crown crown;
+    crown.move({east, 0, 0});
+    reference::RayScene rays(crown.scene);
+    ASSERT_TRUE(rays.set_apart(Crown::object));
+    const SkyTable sky(*sky_of(120.0, 40.0));
+    const OwnFaces own(rays, Crown::object, sky);
+    VertexLight plain(crown.vertices()), ours(crown.vertices());
+    plain.refine(rays, sky, 64, Blocked::bounces), ours.refine(rays, sky, 64, Blocked::bounces, &own);
+    const std::vector<glm::vec3> plain_64 = plain.irradiance(), ours_64 = ours.irradiance();
+    plain.refine(rays, sky, 4032, Blocked::bounces), ours.refine(rays, sky, 4032, Blocked::bounces, &own);
+    const std::vector<glm::vec3> truth = plain.irradiance();
+    EXPECT_LT(rmse_percent(ours.irradiance(), truth), 0.3) << east;
+    EXPECT_LT(rmse_percent(ours_64, truth), 1.25 * rmse_percent(plain_64, truth)) << east;
+    EXPECT_GT(rmse_percent(ours_64, truth), 1.0) << east << ": a control";
+  }
+}
+
+TEST(VertexLight, KeepsWhatItsRaysHitOfItsOwnObjectWhereThatMoves) {
+  Crown crown;
+  reference::RayScene rays(crown.scene);
+  ASSERT_TRUE(rays.set_apart(Crown::object));
+  const SkyTable sky(*sky_of(120.0, 40.0)), later(*sky_of(230.0, 60.0));
+  VertexLight moved(crown.vertices());
+  const auto refine = [&](VertexLight& light, const SkyTable& under, int count) {
+    const OwnFaces own(rays, Crown::object, under);
+    light.refine(rays, under, count, Blocked::bounces, &own);
+  };
+  refine(moved, sky, 64);
+  const std::vector<glm::vec3> before = moved.irradiance();
+  crown.move({0, 8, 0});
+  rays.update(crown.scene);
+  moved.shift(crown.vertices());
+  EXPECT_EQ(moved.rays(), 0);
+  refine(moved, sky, 64);
+  VertexLight fresh(crown.vertices());
+  refine(fresh, sky, 64);
+  EXPECT_LT(rmse_percent(moved.irradiance(), fresh.irradiance()), 0.1);
+  EXPECT_GT(rmse_percent(before, fresh.irradiance()), 5.0) << "a control";
+
+  // The light of the sky is known under another one without a ray, and all of it after as many rays.
+  moved.follow(later);
+  VertexLight under_later(crown.vertices());
+  refine(under_later, later, 64);
+  EXPECT_LT(rmse_percent(moved.sky_irradiance(), under_later.sky_irradiance()), 25.0);
+  refine(moved, later, 64);
+  EXPECT_LT(rmse_percent(moved.irradiance(), under_later.irradiance()), 0.1);
 }
 
 TEST(VertexLight, HalvesOfItsRaysMakeUpTheWhole) {

@@ -121,12 +121,33 @@ Status CrownCity::stands_beside_facade() const {
                near_m);
 }
 
+Status CrownCity::stands_free_in_sun(glm::vec3 to_sun) const {
+  constexpr double max_share = 0.01;
+  const scene::Scene others = casters(false);
+  const reference::RayScene around(others);
+  const std::vector<light::LitVertex> leaves = vertices();
+  const glm::vec3 middle = bounds().centre();
+  std::size_t met = 0, shaded = 0;
+  for (const light::LitVertex& leaf : leaves) {
+    const glm::vec3 inward = middle - leaf.position;
+    const float distance_m = glm::length(inward);
+    if (distance_m > 0.0f && around.is_blocked({leaf.position, inward / distance_m, 0.0f, distance_m})) ++met;
+    if (around.is_blocked({leaf.position, to_sun})) ++shaded;
+  }
+  const double all = double(leaves.size());
+  if (met == 0 && double(shaded) <= max_share * all) return Done{};
+  return error(
+      "the crown at {:.1f} {:.1f} does not stand free in the sun: other things lie between {:.0f} % "
+      "of its vertices and its middle, and shade {:.0f} %",
+      middle.x, middle.y, 100.0 * double(met) / all, 100.0 * double(shaded) / all);
+}
+
 scene::Scene CrownCity::casters(bool with_crown) const {
   scene::Scene casters = play_.scene;
   casters.sky.picture = {};
   for (std::size_t o = 0; o < casters.objects.size(); ++o)
     if (o == crown_)
-      casters.objects[o].is_visible = with_crown;
+      casters.objects[o].is_visible = with_crown, casters.objects[o].is_dynamic = true;  // it has moved
     else if (casters.objects[o].is_dynamic)
       casters.objects[o].is_visible = false;
   return casters;

@@ -28,6 +28,8 @@ class CrownCity {
   /// Advances, and finishes what is spread over frames to come.
   void settle();
 
+  /// The crown's index in the scene.
+  int object() const { return int(crown_); }
   const scene::Scene& scene() const { return play_.scene; }
   /// Irradiance of the crown's vertices, as renderers have it now.
   std::vector<glm::vec3> light() const;
@@ -38,6 +40,9 @@ class CrownCity {
   /// Fails where no wall stands within 8 m east or west of the middle of the crown: on a lawn all places have
   /// one light.
   Status stands_beside_facade() const;
+  /// Fails where anything else stands among the leaves, or where more than a few of them lie in the shade of
+  /// other things: inside a street tree rays would end within a metre.
+  Status stands_free_in_sun(glm::vec3 to_sun) const;
   /// What casts light and shade on the crown: all that stands still, with the crown itself or without it.
   scene::Scene casters(bool with_crown) const;
 
@@ -50,8 +55,9 @@ class CrownCity {
 
 /// East and north of the main crossing: its middle, and beside facades of the street to the north of it. At
 /// the city's hour, 15:30 on a day in June, one side of that street lies in the sun, as the crossing does,
-/// and the other in the shade.
-inline constexpr glm::vec2 crown_on_crossing_m{0.0f}, crown_in_sun_m{5.0f, 34.0f},
+/// and the other in the shade. In the sun it is the crown of an orange tree halfway between two street trees,
+/// 14 and 15 m from their trunks.
+inline constexpr glm::vec2 crown_on_crossing_m{0.0f}, crown_in_sun_m{5.0f, 48.0f},
     crown_in_shade_m{-5.0f, 20.0f};
 
 /// Root of the mean square of what is off, over all channels, as a share of the truth's mean.
