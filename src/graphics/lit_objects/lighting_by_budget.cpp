@@ -64,13 +64,20 @@ void LightingProcess::light(const Changes& changes) {
 
 /// What rays have found of the sky stays.
 void LightingProcess::light_under_other_sky(const std::vector<LitObject*>& objects) {
-  for (LitObject* lit : objects)
+  for (LitObject* lit : objects) {
+    lit->follow_sky(*sky_);
+    const light::OwnFaces* const own = own_faces(*lit);
     for (VertexBlock& block : lit->blocks()) {
-      block.follow_sky(*sky_);
-      block.light.refine(*rays_, *sky_, quick_rays, light::Blocked::bounces);
+      block.light.refine(*rays_, *sky_, quick_rays, light::Blocked::bounces, own);
       rays_left_ -= cost_of_other_sky(block.shown.size());
       block.show_light();
     }
+  }
+}
+
+/// Of an object whose rays know what they hit of itself: it is set apart. Null where they do not.
+const light::OwnFaces* LightingProcess::own_faces(LitObject& lit) {
+  return rays_->set_apart(lit.object()) ? lit.faces(*rays_, *sky_) : nullptr;
 }
 
 /// Objects that have changed show light of their new place in this very frame.
@@ -88,7 +95,7 @@ void LightingProcess::light_quickly(const std::vector<LitObject*>& moved) {
   for (LitObject* lit : moved)
     for (VertexBlock& block : lit->blocks())
       if (plan.method == light::Relighting::traced) {
-        block.light.refine(*rays_, *sky_, plan.rays, light::Blocked::bounces);
+        block.light.refine(*rays_, *sky_, plan.rays, light::Blocked::bounces, own_faces(*lit));
         rays_left_ -= cost(block, plan.rays);
         if (block.known) block.guess = block.known->traced;
         if (block.guess)
@@ -181,19 +188,23 @@ const light::VisibilityPlaces& LightingProcess::places_around(const Bounds& boun
 
 /// Rounds of rays for the vertices that have had the fewest.
 void LightingProcess::refine() {
-  std::vector<VertexBlock*> blocks;
+  struct Unfinished {
+    LitObject* object;
+    VertexBlock* block;
+  };
+  std::vector<Unfinished> blocks;
   for (LitObject& lit : lit_)
     if (casters_.objects[std::size_t(lit.object())].is_visible)
       for (VertexBlock& block : lit.blocks())
-        if (!block.is_finished()) blocks.push_back(&block);
-  const auto fewest = [](const VertexBlock* block) { return block->light.rays(); };
+        if (!block.is_finished()) blocks.push_back({&lit, &block});
+  const auto fewest = [](const Unfinished& it) { return it.block->light.rays(); };
   std::vector<VertexBlock*> lit;
   while (rays_left_ > 0.0 && !blocks.empty()) {
     const auto next = std::ranges::min_element(blocks, {}, fewest);
-    VertexBlock& block = **next;
+    VertexBlock& block = *next->block;
     const int round = rays_left_ >= unlimited ? block.rays_wanted - block.light.rays() : rays_per_round;
     rays_left_ -= cost(block, round);
-    block.light.refine(*rays_, *sky_, (round + 3) / 4 * 4, light::Blocked::bounces);
+    block.light.refine(*rays_, *sky_, (round + 3) / 4 * 4, light::Blocked::bounces, own_faces(*next->object));
     if (std::ranges::find(lit, &block) == lit.end()) lit.push_back(&block);
     if (block.is_finished()) blocks.erase(next);
   }

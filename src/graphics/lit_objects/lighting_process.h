@@ -64,6 +64,7 @@ class LightingProcess final : public action::Process {
   void guess_light(LitObject& lit, const light::VisibilityPlaces& places, int sun_rays);
   GuessWeights weights_of(const LitObject& lit, const std::vector<Clues>& clues);
   const light::VisibilityPlaces& places_around(const Bounds& bounds);
+  const light::OwnFaces* own_faces(LitObject& lit);
   void refine();
   void remember(VertexBlock& block, const LitObject& object);
 

@@ -11,6 +11,8 @@ namespace parvis::lit_objects {
 namespace {
 
 constexpr std::size_t block_vertices = 4096;
+/// Of which it is kept what they hit of their own object: 8 bytes each.
+constexpr std::size_t max_own_rays = 4'000'000;
 /// Fewer rays than these to the sky are not shown by themselves.
 constexpr int min_shown_rays = 64;
 
@@ -43,6 +45,19 @@ bool faces_inward(const Mesh& mesh) {
     }
   }
   return six_volumes < 0.0;
+}
+
+/// True where parts have moved by one way, and nothing has been turned or stretched.
+bool is_shifted(const std::vector<glm::mat4>& from, const std::vector<glm::mat4>& to) {
+  if (from.empty() || from.size() != to.size()) return false;
+  const glm::vec4 way = to[0][3] - from[0][3];
+  for (std::size_t p = 0; p < to.size(); ++p) {
+    constexpr float max_off_m = 1e-4f;  // roundings far from the origin
+    for (int column = 0; column < 3; ++column)
+      if (from[p][column] != to[p][column]) return false;
+    if (glm::distance(way, to[p][3] - from[p][3]) > max_off_m) return false;
+  }
+  return true;
 }
 
 /// Sky and sun together.
@@ -145,8 +160,11 @@ bool LitObject::follow(const scene::Scene& scene) {
   const scene::Object& it = scene.objects[std::size_t(object_)];
   std::vector<glm::mat4> now = transforms_of(it);
   if (now == world_from_mesh_ && it.deformed_meshes.empty()) return false;
+  is_deformed_ = !it.deformed_meshes.empty();
+  const bool knows_itself = !is_deformed_ && is_shifted(world_from_mesh_, now);
   world_from_mesh_ = std::move(now);
   bounds_ = {};
+  faces_.reset();
   std::vector<light::LitVertex> all;
   std::size_t part = it.model->parts.size();
   for (VertexBlock& block : blocks_) {
@@ -157,14 +175,31 @@ bool LitObject::follow(const scene::Scene& scene) {
       bounds_.add(vertex.position);
       if (block.is_behind) vertex.normal = -vertex.normal;
     }
-    block.light.restart(std::move(own));
+    if (knows_itself)
+      block.light.shift(std::move(own));
+    else
+      block.light.restart(std::move(own));
     block.guess.reset();
   }
   return true;
 }
 
 void LitObject::restart() {
+  faces_.reset();
   for (VertexBlock& block : blocks_) block.restart();
+}
+
+void LitObject::follow_sky(const light::SkyTable& sky) {
+  faces_.reset();
+  for (VertexBlock& block : blocks_) block.follow_sky(sky);
+}
+
+const light::OwnFaces* LitObject::faces(const reference::RayScene& rays, const light::SkyTable& sky) {
+  std::size_t own_rays = 0;
+  for (const VertexBlock& block : blocks_) own_rays += block.shown.size() * std::size_t(block.rays_wanted);
+  if (is_deformed_ || own_rays > max_own_rays) return nullptr;
+  if (!faces_) faces_.emplace(rays, object_, sky);
+  return &*faces_;
 }
 
 bool LitObject::is_finished() const { return std::ranges::all_of(blocks_, &VertexBlock::is_finished); }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "graphics/light/own_faces.h"
 #include "graphics/light/vertex_light.h"
 #include "graphics/lit_objects/guessed_light.h"
 #include "scene/data/scene.h"
@@ -71,6 +72,12 @@ class LitObject {
   bool follow(const scene::Scene& scene);
   /// VertexBlock::restart of all.
   void restart();
+  /// VertexBlock::follow_sky of all.
+  void follow_sky(const light::SkyTable& sky);
+  /// Its own faces for light::VertexLight::refine, lit where it stands; `rays` has set it apart. Null where
+  /// it deforms, so that its rays hit other faces in each moment, or where what they hit takes too much
+  /// memory.
+  const light::OwnFaces* faces(const reference::RayScene& rays, const light::SkyTable& sky);
 
   /// False while a part of it has never been lit.
   bool has_light() const;
@@ -88,6 +95,8 @@ class LitObject {
   std::vector<glm::mat4> world_from_mesh_;              ///< of each part
   std::vector<std::vector<glm::vec3>> filled_normals_;  ///< of parts whose file has none
   std::vector<VertexBlock> blocks_;
+  std::optional<light::OwnFaces> faces_;  ///< none until they are asked for
+  bool is_deformed_ = false;
   Bounds bounds_;
 };
 

@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "formats/gltf/gltf_writer.h"
 #include "formats/gltf/room.h"
+#include "formats/gltf/test_mesh_file.h"
 #include "formats/meshes/room.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/room.h"
@@ -13,6 +14,7 @@
 #include "graphics/lit_objects/lighting_process.h"
 #include "graphics/lit_objects/room.h"
 #include "graphics/reference/frame.h"
+#include "graphics/reference/test_wrong_pixels.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/frame_views.h"
 #include "graphics/render/light_source.h"
@@ -65,9 +67,7 @@ class LitObjects : public scene::ScriptTest<gl::ContextTest> {
   }
 
   void save(const std::string& name, const Mesh& mesh, bool is_double_sided = false) const {
-    scene::Material material = scene::matt(vec3(0.5f));
-    material.is_double_sided = is_double_sided;
-    EXPECT_TRUE(scene::write_gltf(folder_.path() / name, *scene::model_of(mesh, material)));
+    scene::write_grey(folder_.path() / name, mesh, is_double_sided);
   }
 
   Running run(const std::string& script) {
@@ -468,21 +468,16 @@ TEST_F(LitObjects, AreDrawnAndTracedAlike) {
   const reference::ObjectPicture objects =
       reference::trace_objects(reference::RayScene(scene.scene), camera, size, size);
   const auto is_inside = [&](int x, int y) {
+    if (x < 1 || y < 1 || x + 1 >= size || y + 1 >= size) return false;
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx)
         if (*objects.at(x + dx, y + dy) != scene.index("ball") + 1) return false;
     return true;
   };
   const auto wrong_percent = [&](const ImageF& a, const ImageF& b) {
-    int wrong = 0, count = 0;
-    for (int y = 1; y + 1 < size; ++y)
-      for (int x = 1; x + 1 < size; ++x) {
-        if (!is_inside(x, y)) continue;
-        ++count;
-        wrong += std::abs(a.at(x, y)[1] - b.at(x, y)[1]) > 0.02f * b.at(x, y)[1] + 1e-3f;
-      }
-    EXPECT_GT(count, 1000);
-    return 100.0 * wrong / count;
+    const reference::WrongPixels pixels = reference::wrong_pixels(a, b, 0.02f, 1e-3f, is_inside);
+    EXPECT_GT(pixels.count, 1000);
+    return pixels.percent();
   };
   const ImageF picture = drawn();
   EXPECT_LT(wrong_percent(picture, traced(scene.scene)), 1.0);
