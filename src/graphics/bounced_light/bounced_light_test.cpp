@@ -11,7 +11,7 @@
 #include "graphics/reference/scene_lamps.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/frame_views.h"
-#include "graphics/render/renderer.h"
+#include "graphics/render/test_renderer.h"
 #include "scene/data/lamp.h"
 
 namespace parvis::bounced_light {
@@ -105,13 +105,8 @@ scene::Scene by_night(scene::Scene scene) {
   return scene;
 }
 
-std::vector<vec3> irradiance_of(const Transfer& transfer, const scene::Scene& scene,
-                                const reference::RayScene& rays) {
-  const std::vector<shading::Lamp> lamps = reference::lit_lamps(scene);
-  std::vector<vec3> irradiance(transfer.patches().size(), vec3(0.0f));
-  for (const LampOnPatch& lit : transfer.lamps_on_patches(lamps, scene, rays))
-    irradiance[lit.patch] += lit.share * vec3(lamps[lit.lamp].power);
-  return irradiance;
+std::vector<vec3> irradiance_of(const Transfer& transfer, const scene::Scene& scene) {
+  return LampShares().irradiance(transfer, reference::lit_lamps(scene), scene);
 }
 
 TEST(Transfer, GroundGivesBackTheLightOfALampAboveIt) {
@@ -123,7 +118,7 @@ TEST(Transfer, GroundGivesBackTheLightOfALampAboveIt) {
   const reference::RayScene rays(scene);
   const Transfer transfer(scene, rays, {true, 4.0f, 512});
   const shading::BouncedLight light =
-      transfer.light(scene.sun, sky_of(scene), irradiance_of(transfer, scene, rays), 1);
+      transfer.light(scene.sun, sky_of(scene), irradiance_of(transfer, scene), 1);
   // Irradiance of a ceiling 12 m above the ground, right over the lamp: rings of the ground.
   const double lamp_m = 5.0, ceiling_m = 12.0, step_m = 0.01;
   double expected = 0.0;
@@ -144,7 +139,7 @@ TEST(Transfer, LampsLightNoPatchBehindAWall) {
   scene::Scene scene = by_night(street());
   const reference::RayScene rays(scene);
   const Transfer transfer(scene, rays, {true, 3.0f, 64});
-  const std::vector<vec3> irradiance = irradiance_of(transfer, scene, rays);
+  const std::vector<vec3> irradiance = irradiance_of(transfer, scene);
   int lit = 0, behind = 0;
   for (std::size_t i = 0; i < irradiance.size(); ++i) {
     const Patch& patch = transfer.patches()[i];
@@ -160,6 +155,79 @@ TEST(Transfer, LampsLightNoPatchBehindAWall) {
   }
   EXPECT_GT(lit, 20);
   EXPECT_GT(behind, 20);
+}
+
+shading::Lamp lamp_at(vec3 place, float power = 10.0f) {
+  return {glm::vec4(place, 20.0f), glm::vec4(vec3(power), 0.0f), glm::vec4(0, 0, -1, -2), glm::vec4(0.0f)};
+}
+
+TEST(LampShares, ALampThatIsSwitchedTracesItsOwnRaysAlone) {
+  const scene::Scene scene = street();
+  const Transfer transfer(scene, reference::RayScene(scene), {true, 3.0f, 64});
+  const shading::Lamp south = lamp_at({0, -12, 5}), north = lamp_at({1, 12, 4});
+  const auto traced_for = [&](const std::vector<shading::Lamp>& lamps) {
+    LampShares fresh;
+    fresh.irradiance(transfer, lamps, scene);
+    return fresh.traced();
+  };
+  LampShares shares;
+  const std::vector<vec3> of_one = shares.irradiance(transfer, {south}, scene);
+  EXPECT_EQ(shares.traced(), traced_for({south}));
+  const std::vector<vec3> of_both = shares.irradiance(transfer, {north, south}, scene);
+  EXPECT_EQ(of_both, LampShares().irradiance(transfer, {north, south}, scene));
+  const std::size_t all = shares.traced();
+  EXPECT_EQ(all, traced_for({south}) + traced_for({north}));
+
+  EXPECT_EQ(shares.irradiance(transfer, {south}, scene), of_one);
+  EXPECT_TRUE(shares.irradiance(transfer, {}, scene).empty());
+  EXPECT_EQ(shares.irradiance(transfer, {north, south}, scene), of_both);
+  shading::Lamp bright = north;
+  bright.power *= 3.0f;
+  EXPECT_NE(shares.irradiance(transfer, {bright, south}, scene), of_both);
+  EXPECT_EQ(shares.traced(), all) << "switched off, on and dimmed";
+
+  for (const auto change :
+       {+[](shading::Lamp& lamp) { lamp.place.z += 1.0f; },
+        +[](shading::Lamp& lamp) { lamp.place.w = 15.0f; }, +[](shading::Lamp& lamp) { lamp.axis.w = 0.5f; },
+        +[](shading::Lamp& lamp) { lamp.body.w = 0.3f; }}) {
+    shading::Lamp other = north;
+    change(other);
+    const std::size_t before = shares.traced();
+    EXPECT_EQ(shares.irradiance(transfer, {other, south}, scene),
+              LampShares().irradiance(transfer, {other, south}, scene));
+    EXPECT_EQ(shares.traced() - before, traced_for({other})) << "it is another lamp";
+  }
+}
+
+/// Of more lamps than a cell has room for, those that are brightest now count, whichever burned first.
+TEST(LampShares, TheStrongestAreChosenAmongThoseThatBurnNow) {
+  const scene::Scene scene = street();
+  const Transfer transfer(scene, reference::RayScene(scene), {true, 6.0f, 64});
+  std::vector<shading::Lamp> lamps;
+  for (int i = 0; i < shading::max_lamps_per_cell + 2; ++i)
+    lamps.push_back(lamp_at({0.01f * float(i), 0, 5}, 10.0f - float(i)));
+  LampShares shares;
+  const std::vector<vec3> at_first = shares.irradiance(transfer, lamps, scene);
+  const std::size_t traced = shares.traced();
+  lamps.back().power = glm::vec4(50.0f, 50.0f, 50.0f, 0.0f);
+  const std::vector<vec3> later = shares.irradiance(transfer, lamps, scene);
+  EXPECT_NE(later, at_first);
+  EXPECT_EQ(later, LampShares().irradiance(transfer, lamps, scene));
+  EXPECT_GT(shares.traced(), traced);
+  EXPECT_LT(4 * (shares.traced() - traced), traced) << "one lamp beside the eight";
+}
+
+/// What is kept is bounded where a lamp moves on for hours.
+TEST(LampShares, ALampOnAPathIsForgottenWhereItHasBeen) {
+  const scene::Scene scene = street();
+  const Transfer transfer(scene, reference::RayScene(scene), {true, 8.0f, 32});
+  LampShares shares;
+  for (int i = 0; i < 80; ++i) {
+    const std::vector<shading::Lamp> lamps{lamp_at({0.01f * float(i), 0, 5}), lamp_at({1, 3, 5})};
+    ASSERT_EQ(shares.irradiance(transfer, lamps, scene), LampShares().irradiance(transfer, lamps, scene))
+        << i;
+  }
+  EXPECT_LT(2 * shares.kept(), shares.traced());
 }
 
 TEST(Transfer, PlacesInsideOfThingsAreNone) {
@@ -198,6 +266,36 @@ TEST_F(BouncedPicture, FollowsTheLampsThatStandStill) {
   const float from_below = on_the_wall();
   EXPECT_GT(from_below, 1e-3f);
   EXPECT_GT(std::abs(from_below - 2.0f * once), 0.05f * once) << "it stands somewhere else";
+}
+
+/// Where more lamps hang than light one place, those that are switched on or grow bright later bounce, too.
+TEST_F(BouncedPicture, IsThatOfTheLampsThatBurnNowWhicheverBurnedFirst) {
+  scene::Scene scene = by_night(street());
+  auto& hung = scene.data<scene::ItemsOf<scene::Lamp>>();
+  const scene::Lamp first = hung.items[0];
+  for (int i = 1; i < shading::max_lamps_per_cell + 2; ++i) {
+    scene::Lamp lamp = first;
+    lamp.position.x = 0.01f * float(i);
+    hung.add(lamp, 0);
+  }
+  hung.items.back().intensity *= 0.1f;
+  const auto make = [&] {
+    return render::renderer_of(scene, with_bounced_light(lamps::with_lamps(light::sun_and_sky)));
+  };
+  const auto lobes_of = [&](render::Renderer& renderer) {
+    EXPECT_TRUE(render::draw_frame(renderer, scene, {Camera{}, 16, 16}));
+    return renderer.drawn_light().bounced->lobes;
+  };
+  const auto renderer = make();
+  const std::vector<glm::vec4> at_first = lobes_of(*renderer);
+  hung.items.back().intensity = 5.0f * first.intensity;
+  const std::vector<glm::vec4> brighter = lobes_of(*renderer);
+  EXPECT_NE(brighter, at_first);
+  EXPECT_EQ(brighter, lobes_of(*make()));
+  for (std::size_t i = 0; i < 4; ++i) hung.items[i].burns = scene::LampSwitch::never;
+  const std::vector<glm::vec4> fewer = lobes_of(*renderer);
+  EXPECT_NE(fewer, brighter);
+  EXPECT_EQ(fewer, lobes_of(*make()));
 }
 
 /// What path-traced photographs of the shaded wall show that sun and sky alone do not.

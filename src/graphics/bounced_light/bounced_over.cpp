@@ -23,24 +23,6 @@ std::vector<BouncedOver::Standing> BouncedOver::standing_in(const scene::Scene& 
   return standing;
 }
 
-/// Of the patches, by lamps that stand still. Rays find which lamps light which patches, once for all that
-/// shine from there, however brightly.
-std::vector<glm::vec3> BouncedOver::irradiance_by_lamps(const scene::Scene& scene) {
-  const std::vector<shading::Lamp> lamps = reference::lit_lamps(scene, reference::LampKind::still);
-  if (lamps.empty()) return {};
-  const auto stand_alike = [](const shading::Lamp& a, const shading::Lamp& b) {
-    return a.place == b.place && a.axis == b.axis && a.body.w == b.body.w;
-  };
-  if (!std::ranges::equal(lamps, lamps_, stand_alike)) {
-    lamps_on_patches_ = transfer_.lamps_on_patches(lamps, scene, reference::RayScene(scene));
-    lamps_ = lamps;
-  }
-  std::vector<glm::vec3> irradiance(transfer_.patches().size(), glm::vec3(0.0f));
-  for (const LampOnPatch& lit : lamps_on_patches_)
-    irradiance[lit.patch] += lit.share * glm::vec3(lamps[lit.lamp].power);
-  return irradiance;
-}
-
 bool BouncedOver::update(const scene::Scene& scene) {
   const bool has_new_light = LightOver::update(scene);
   std::vector<Standing> standing = standing_in(scene);
@@ -49,13 +31,14 @@ bool BouncedOver::update(const scene::Scene& scene) {
     std::optional<Transfer> kept = TransferCache(scene).read();
     transfer_ = kept ? *std::move(kept) : trace_transfer(scene);
     standing_ = std::move(standing), is_traced_ = true;
-    lamps_.clear();
+    lamp_shares_ = {};
   }
   if (!is_other && !has_new_light && sun_ == scene.sun) return false;
   sun_ = scene.sun;
   scene::Sun sun = scene.sun;
   if (scene.data<scene::SunShadows>().spot) sun.irradiance = glm::vec3(0.0f);  // a lamp stands in its place
-  light_ = transfer_.light(sun, sky(), irradiance_by_lamps(scene));
+  const std::vector<shading::Lamp> lamps = reference::lit_lamps(scene, reference::LampKind::still);
+  light_ = transfer_.light(sun, sky(), lamp_shares_.irradiance(transfer_, lamps, scene));
   upload();
   return true;
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "graphics/bounced_light/lamp_shares.h"
 #include "graphics/bounced_light/transfer.h"
 #include "graphics/gl/objects.h"
 #include "graphics/render/light_over.h"
@@ -30,14 +31,12 @@ class BouncedOver final : public render::LightOver {
     bool operator==(const Standing&) const = default;
   };
   static std::vector<Standing> standing_in(const scene::Scene& scene);
-  std::vector<glm::vec3> irradiance_by_lamps(const scene::Scene& scene);
   void upload();
 
   std::vector<Standing> standing_;  ///< of which `transfer_` is made
   bool is_traced_ = false;
   Transfer transfer_;
-  std::vector<shading::Lamp> lamps_;  ///< that `lamps_on_patches_` was traced for; empty: none
-  std::vector<LampOnPatch> lamps_on_patches_;
+  LampShares lamp_shares_;  ///< on the patches of `transfer_`
   scene::Sun sun_;
   shading::BouncedLight light_;
   gl::Texture texture_;

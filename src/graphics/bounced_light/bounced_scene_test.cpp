@@ -1,16 +1,15 @@
 // Bounced light of a scene that runs: it follows messages and scenarios that change what it comes from.
 #include <gtest/gtest.h>
 
-#include "formats/gltf/gltf_writer.h"
 #include "formats/gltf/room.h"
+#include "formats/gltf/test_mesh_file.h"
 #include "formats/meshes/room.h"
 #include "graphics/bounced_light/room.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/room.h"
 #include "graphics/render/frame_views.h"
 #include "graphics/render/light_source.h"
-#include "graphics/render/renderer.h"
-#include "scene/data/test_scene.h"
+#include "graphics/render/test_renderer.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/room.h"
 #include "scene/script/test_script.h"
@@ -24,18 +23,12 @@ class BouncedScene : public scene::ScriptTest<gl::ContextTest> {
     for (const auto furnish :
          {script::furnish, gltf::furnish, meshes::furnish, light::furnish, bounced_light::furnish})
       furnish(house_);
-    save("ground.glb", scene::ground(24));
-    save("west.glb", scene::box({-10, -20, 0}, {-6, 20, 9}));
-    save("east.glb", scene::box({6, -20, 0}, {10, 20, 9}));
-  }
-  void save(const std::string& name, const Mesh& mesh) const {
-    EXPECT_TRUE(
-        scene::write_gltf(folder_.path() / name, *scene::model_of(mesh, scene::matt(glm::vec3(0.5f)))));
+    scene::write_grey(folder_.path() / "ground.glb", scene::ground(24));
+    scene::write_grey(folder_.path() / "west.glb", scene::box({-10, -20, 0}, {-6, 20, 9}));
+    scene::write_grey(folder_.path() / "east.glb", scene::box({6, -20, 0}, {10, 20, 9}));
   }
   std::unique_ptr<render::Renderer> renderer_of(const scene::Scene& scene) const {
-    auto renderer = render::Renderer::create(scene, {}, house_.get<render::Lights>().make);
-    EXPECT_TRUE(renderer) << to_string(renderer.errors());
-    return *std::move(renderer);
+    return render::renderer_of(scene, house_.get<render::Lights>().make);
   }
   /// In all cells, when a frame has been drawn.
   static std::vector<glm::vec4> light_in(render::Renderer& renderer, const scene::Scene& scene) {

@@ -86,6 +86,16 @@ TEST_F(KeptTransfer, IsReadAsItWasTracedAtEveryHour) {
   EXPECT_EQ(kept->to_bytes(), traced.to_bytes());
 }
 
+TEST_F(KeptTransfer, OfAPlaceTooLargeForItsSpacingIsRead) {
+  // Cells of 0.5 m would be twenty million here: they grow, and with them the grid about the place.
+  scene_.objects.front().model = scene::model_of(scene::ground(600), scene::matt(glm::vec3(0.4f)));
+  scene_.data<scene::BouncedSettings>() = {true, 0.5f, 16};
+  const Transfer traced = trace_transfer(scene_);
+  const std::optional<Transfer> read = Transfer::from_bytes(traced.to_bytes());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->to_bytes(), traced.to_bytes());
+}
+
 TEST_F(KeptTransfer, OfAnotherSceneOrDamagedIsNotUsed) {
   ASSERT_TRUE(TransferCache(scene_).keep(trace_transfer(scene_)));
   const fs::path file = TransferCache(scene_).file();

@@ -19,6 +19,9 @@ using glm::ivec3, glm::vec3, glm::vec4;
 
 constexpr float pi_f = 3.14159265f;
 constexpr float max_cells = 150'000.0f;
+/// Cells along each axis: drivers take 3D textures of 2,048 texels, and light has three for each cell upward.
+const vec3 max_side(2048.0f, 2048.0f, 682.0f);
+const vec3 margin_cells(2.0f, 2.0f, 1.0f);  // around the fixed things, on both sides together
 constexpr float cell_height_share = 0.75f;  // of the spacing from side to side: light changes most upward
 constexpr float patch_share = 0.75f;        // of the spacing: side of a patch
 constexpr float inside_share = 0.25f;       // of rays that hit backs: the place is inside of something
@@ -142,12 +145,14 @@ const std::array<vec3, sky_directions>& directions_of_sky() {
 
 void Transfer::lay_out(const Bounds& fixed, float spacing_m) {
   vec3 cell_m(spacing_m, spacing_m, cell_height_share * spacing_m);
-  const vec3 size = fixed.size() + vec3(2.0f, 2.0f, 1.0f) * cell_m;
-  const float wanted = (size.x / cell_m.x) * (size.y / cell_m.y) * (size.z / cell_m.z);
-  if (wanted > max_cells) cell_m *= std::cbrt(wanted / max_cells);
-  cells_ = glm::max(ivec3(glm::ceil(size / cell_m)), ivec3(1));
+  const auto size_m = [&] { return fixed.size() + margin_cells * cell_m; };
+  const vec3 wanted = size_m() / cell_m;
+  const float cells = wanted.x * wanted.y * wanted.z;
+  if (cells > max_cells) cell_m *= std::cbrt(cells / max_cells);
+  cell_m = glm::max(cell_m, fixed.size() / (max_side - margin_cells - 1.0f));
+  cells_ = glm::max(ivec3(glm::ceil(size_m() / cell_m)), ivec3(1));
   const vec3 origin = fixed.min - vec3(cell_m.x, cell_m.y, 0.25f * cell_m.z);
-  grid_ = {origin, cell_m * vec3(cells_), 0.4f * cell_m.x, float(cells_.z)};
+  grid_ = {origin, cell_m * vec3(cells_), 0.4f * std::min(cell_m.x, cell_m.y), float(cells_.z)};
 }
 
 std::size_t Transfer::index(ivec3 cell) const {
@@ -231,43 +236,20 @@ void Transfer::see_sky(const scene::Scene& scene, const reference::RayScene& ray
       64);
 }
 
-std::vector<LampOnPatch> Transfer::lamps_on_patches(const std::vector<shading::Lamp>& lamps,
-                                                    const scene::Scene& scene,
-                                                    const reference::RayScene& rays) const {
-  const shading::LampTable table = shading::make_lamp_table(lamps);
-  const auto share_at = [&](const shading::Lamp& lamp, vec3 point, vec3 normal, std::uint64_t chance) {
-    const vec3 away = vec3(lamp.place) - point;
-    const float distance_m = glm::length(away);
-    const float facing = glm::dot(normal, away);
-    if (facing <= 0.0f || distance_m < housing_m) return 0.0f;
-    shading::Lamp of_one_watt = lamp;
-    of_one_watt.power = vec4(1.0f);
-    const float share =
-        facing / distance_m * shading::lamp_irradiance(of_one_watt, away / distance_m, distance_m).x;
-    if (!(share > 0.0f) || !is_open(scene, rays, reference::ray_to_lamp(lamp, point, normal), chance))
-      return 0.0f;
-    return share / float(lit_points_per_patch);
-  };
-  std::vector<std::vector<LampOnPatch>> of_patches(patches_.size());
-  parallel_for(
-      patches_.size(),
-      [&](std::size_t i) {
-        for (std::size_t p = i * lit_points_per_patch; p < (i + 1) * lit_points_per_patch; ++p)
-          table.for_each_near(lit_points_[p], [&](std::uint32_t number) {
-            const float share = share_at(table.lamps[number], lit_points_[p], patches_[i].normal, p);
-            if (share == 0.0f) return;
-            const auto known = std::ranges::find(of_patches[i], number, &LampOnPatch::lamp);
-            if (known == of_patches[i].end())
-              of_patches[i].push_back({std::uint32_t(i), number, share});
-            else
-              known->share += share;
-          });
-      },
-      64);
-  std::vector<LampOnPatch> all;
-  for (const std::vector<LampOnPatch>& of_patch : of_patches)
-    all.insert(all.end(), of_patch.begin(), of_patch.end());
-  return all;
+float Transfer::lamp_share(const shading::Lamp& lamp, std::size_t point, const scene::Scene& scene,
+                           const reference::RayScene& rays) const {
+  const vec3 from = lit_points_[point], normal = patches_[point / lit_points_per_patch].normal;
+  const vec3 away = vec3(lamp.place) - from;
+  const float distance_m = glm::length(away);
+  const float facing = glm::dot(normal, away);
+  if (facing <= 0.0f || distance_m < housing_m) return 0.0f;
+  shading::Lamp of_one_watt = lamp;
+  of_one_watt.power = vec4(1.0f);
+  const float share =
+      facing / distance_m * shading::lamp_irradiance(of_one_watt, away / distance_m, distance_m).x;
+  if (!(share > 0.0f) || !is_open(scene, rays, reference::ray_to_lamp(lamp, from, normal), point))
+    return 0.0f;
+  return share;
 }
 
 /// Of each patch by sun and sky.

@@ -39,12 +39,6 @@ struct Patch {
 /// Points of each patch at which lamps are looked for: their light changes within metres.
 inline constexpr std::size_t lit_points_per_patch = 4;
 
-/// What a lamp that stands still does to a patch, past static things.
-struct LampOnPatch {
-  std::uint32_t patch, lamp;
-  float share;  ///< irradiance over the lamp's power in W/sr, per square metre
-};
-
 /// The transfer of a scene's static geometry.
 class Transfer {
  public:
@@ -60,10 +54,10 @@ class Transfer {
   /// What `to_bytes` wrote; nothing where bytes are missing, or counts and indices do not fit each other.
   static std::optional<Transfer> from_bytes(std::string_view bytes);
 
-  /// Which of these lamps light which patches, of those near a patch the strongest (shading::LampTable); for
-  /// the scene that this was made of. Traces rays.
-  std::vector<LampOnPatch> lamps_on_patches(const std::vector<shading::Lamp>& lamps,
-                                            const scene::Scene& scene, const reference::RayScene& rays) const;
+  /// What a lamp does to one of `lit_points`, past static things of the scene that this was made of:
+  /// irradiance per square metre over the lamp's power in W/sr. Traces a ray.
+  float lamp_share(const shading::Lamp& lamp, std::size_t point, const scene::Scene& scene,
+                   const reference::RayScene& rays) const;
 
   /// The light that arrives at every place after `bounces` surfaces or fewer. `by_lamps`: irradiance of each
   /// patch beside that by sun and sky; empty: there is none.
@@ -73,6 +67,8 @@ class Transfer {
   /// How many places have light.
   std::size_t place_count() const { return air_.size(); }
   const std::vector<Patch>& patches() const { return patches_; }  ///< all surfaces that places see
+  /// `lit_points_per_patch` for each patch, a little above it.
+  const std::vector<glm::vec3>& lit_points() const { return lit_points_; }
 
  private:
   void lay_out(const Bounds& fixed, float spacing_m);
@@ -96,7 +92,7 @@ class Transfer {
   std::vector<std::int32_t> seen_;    ///< `rays_` for each of them: a patch, or -1: the sky
   std::vector<std::uint8_t> is_air_;  ///< by cell
   std::vector<Patch> patches_;
-  std::vector<glm::vec3> lit_points_;  ///< `lit_points_per_patch` for each of them, a little above it
+  std::vector<glm::vec3> lit_points_;
 
   /// A cell inside of something, beside air.
   struct Wall {
