@@ -1,8 +1,10 @@
 #include "graphics/lamps/lamp_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <utility>
 
 #include "base/parallel.h"
@@ -20,9 +22,10 @@ bool is_same(const shading::Lamp& a, const shading::Lamp& b) {
          a.body == b.body;
 }
 
-/// From where nothing but the place and the reach counts.
-bool has_same_map(const shading::Lamp& a, const shading::Lamp& b) {
-  return a.place == b.place && a.body.w == b.body.w;
+/// What a depth map follows from: place, reach and radius.
+using MapKey = std::array<float, 5>;
+MapKey map_key(const shading::Lamp& lamp) {
+  return {lamp.place.x, lamp.place.y, lamp.place.z, lamp.place.w, lamp.body.w};
 }
 
 int max_layers() {
@@ -40,20 +43,47 @@ bool reaches(const shading::Lamp& lamp, const Bounds& region) {
 
 LampLight::LampLight(std::unique_ptr<render::LightSource> below) : LightOver(std::move(below)) {}
 
-/// Makes the maps that are missing; true where there were any.
+/// Lamps that burned before, and still do, keep their maps, in the layers that they have now.
+void LampLight::take_over_maps(const std::vector<shading::Lamp>& before, std::size_t layers) {
+  std::map<MapKey, std::size_t> known;
+  for (std::size_t i = 0; i < is_mapped_.size(); ++i)
+    if (is_mapped_[i]) known.emplace(map_key(before[i]), i);
+  const std::vector<std::uint16_t> depths =
+      std::exchange(depths_, std::vector<std::uint16_t>(layers * map_texels, 65535));
+  is_mapped_.assign(layers, false);
+  for (std::size_t i = 0; i < layers; ++i) {
+    const auto found = known.find(map_key(still_[i]));
+    if (found == known.end()) continue;
+    std::copy_n(depths.begin() + std::ptrdiff_t(found->second * map_texels), map_texels,
+                depths_.begin() + std::ptrdiff_t(i * map_texels));
+    is_mapped_[i] = true;
+  }
+  has_other_layers_ = true;
+}
+
+/// Makes the maps that are missing; true where the maps on the GPU are other ones then.
 bool LampLight::trace_maps(const scene::Scene& scene) {
-  if (std::ranges::all_of(is_mapped_, [](bool is_mapped) { return is_mapped; })) return false;
-  const reference::RayScene rays(scene);
-  const std::size_t mapped = is_mapped_.size();  // fewer than `still_` where the driver has fewer layers
-  parallel_for(mapped, [&](std::size_t i) {
-    if (!is_mapped_[i])
-      trace_map(scene, rays, still_[i], std::span(depths_).subspan(i * map_texels, map_texels));
-  });
-  is_mapped_.assign(mapped, true);
-  has_new_maps_ = true;
+  const auto missing = std::ranges::count(is_mapped_, false);
+  if (is_mapped_.empty() || (missing == 0 && !has_other_layers_)) return false;
+  if (missing > 0) {
+    const reference::RayScene rays(scene);
+    const std::size_t mapped = is_mapped_.size();  // fewer than `still_` where the driver has fewer layers
+    parallel_for(mapped, [&](std::size_t i) {
+      if (!is_mapped_[i])
+        trace_map(scene, rays, still_[i], std::span(depths_).subspan(i * map_texels, map_texels));
+    });
+    is_mapped_.assign(mapped, true);
+    maps_traced_ += std::size_t(missing);
+  }
+  has_new_maps_ = true, has_other_layers_ = false;
+  upload_maps();
+  return true;
+}
+
+void LampLight::upload_maps() {
   const int side = shading::lamp_map_px;
-  if (layers_ != int(mapped)) {
-    layers_ = int(mapped);
+  if (layers_ != int(is_mapped_.size())) {
+    layers_ = int(is_mapped_.size());
     maps_ = gl::Texture::create(GLenum(GL_TEXTURE_2D_ARRAY));
     glTextureStorage3D(maps_.name(), 1, GL_DEPTH_COMPONENT16, side, side, layers_);
     glTextureParameteri(maps_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -65,7 +95,6 @@ bool LampLight::trace_maps(const scene::Scene& scene) {
   }
   glTextureSubImage3D(maps_.name(), 0, 0, 0, 0, side, side, layers_, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT,
                       depths_.data());
-  return true;
 }
 
 bool LampLight::update(const scene::Scene& scene) {
@@ -79,17 +108,16 @@ bool LampLight::update(const scene::Scene& scene) {
                shading::max_lamps);
   const std::size_t layers = std::min(still.size(), std::size_t(max_layers()));
   for (std::size_t i = 0; i < layers; ++i) still[i].power.w = float(i + 1);
-  const bool has_same_places = std::ranges::equal(still, still_, has_same_map);
+  const bool has_same_places = std::ranges::equal(still, still_, {}, map_key, map_key);
   const bool is_changed = !std::ranges::equal(still, still_, is_same);
-  still_ = std::move(still);
+  const std::vector<shading::Lamp> before = std::exchange(still_, std::move(still));
   if (!has_same_places) {
     if (layers < still_.size())
       fmt::print(
           stderr,
           "warning: {} lamps burn; the graphics driver holds depth maps of {}, the others cast no shadows\n",
           still_.size(), layers);
-    is_mapped_.assign(layers, false);
-    depths_.assign(layers * map_texels, 65535);
+    take_over_maps(before, layers);
   }
   return trace_maps(scene) || is_changed || has_changed_below;
 }

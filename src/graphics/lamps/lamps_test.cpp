@@ -12,9 +12,11 @@
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/photograph.h"
 #include "graphics/reference/scene_lamps.h"
+#include "graphics/reference/test_wrong_pixels.h"
 #include "graphics/reference/tracer.h"
+#include "graphics/render/fixed_parts.h"
 #include "graphics/render/frame_views.h"
-#include "graphics/render/renderer.h"
+#include "graphics/render/test_renderer.h"
 #include "scene/action/scene_clock.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/room.h"
@@ -186,9 +188,7 @@ TEST(PathTracer, SeesTheGroundUnderALampAsBrightAsTheLawSays) {
 class LampPicture : public gl::ContextTest {
  protected:
   static std::unique_ptr<render::Renderer> renderer_of(const scene::Scene& scene) {
-    auto renderer = render::Renderer::create(scene, {}, with_lamps(light::sun_and_sky));
-    EXPECT_TRUE(renderer) << to_string(renderer.errors());
-    return *std::move(renderer);
+    return render::renderer_of(scene, with_lamps(light::sun_and_sky));
   }
   static constexpr int size = 160;
   static ImageF drawn(render::Renderer& renderer, const scene::Scene& scene) {
@@ -204,13 +204,7 @@ class LampPicture : public gl::ContextTest {
     options.drawn_light = &light;
     const ImageF truth =
         reference::trace_picture(rays, scene, sky, street_camera(), size, size, options).radiance;
-    int wrong = 0;
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x) {
-        const float expected = truth.at(x, y)[0];
-        wrong += std::abs(picture.at(x, y)[0] - expected) > 0.1f * expected + 0.0003f;
-      }
-    return 100.0 * wrong / (size * size);
+    return reference::wrong_percent(picture, truth, 0.0003f);
   }
 };
 
@@ -231,6 +225,39 @@ TEST_F(LampPicture, AgreesWithTheRayTracerThatReadsItsMapsAndWithExactRays) {
   light.has_exact_shadows = false;
   EXPECT_GT(wrong_percent(picture, scene, light, renderer->sky()), 10.0)
       << "the comparison sees lamps that shine through walls";
+}
+
+/// Of the lamps that burn, the others keep their depth maps.
+TEST_F(LampPicture, ALampThatIsSwitchedHasItsMapAloneTraced) {
+  scene::Scene scene = night_street();
+  auto& hung = scene.data<scene::ItemsOf<scene::Lamp>>().items;
+  const auto make = [&] {
+    auto below = light::sun_and_sky(scene, render::bounds_of_fixed_parts(scene, false));
+    EXPECT_TRUE(below) << to_string(below.errors());
+    return LampLight(*std::move(below));
+  };
+  const auto depths_of = [&](LampLight& light) {
+    light.update(scene);
+    light.draw_shadows(street_camera(), {}, [](const render::View&) {});
+    const std::span<const std::uint16_t> depths = light.lamps()->depths;
+    return std::vector<std::uint16_t>(depths.begin(), depths.end());
+  };
+  const auto depths_then = [&] {
+    LampLight fresh = make();
+    return depths_of(fresh);
+  };
+  LampLight light = make();
+  const std::vector<std::uint16_t> all = depths_of(light);
+  EXPECT_EQ(light.maps_traced(), 3u);
+  hung[0].burns = scene::LampSwitch::never;
+  EXPECT_EQ(depths_of(light), depths_then());
+  EXPECT_EQ(light.maps_traced(), 3u) << "the others have moved to other layers";
+  hung[0].burns = scene::LampSwitch::always;
+  EXPECT_EQ(depths_of(light), all);
+  EXPECT_EQ(light.maps_traced(), 4u);
+  hung[2].position.z += 0.5f;
+  EXPECT_EQ(depths_of(light), depths_then());
+  EXPECT_EQ(light.maps_traced(), 5u);
 }
 
 TEST_F(LampPicture, LampsOfMovingObjectsFollowThemAndArePartOfNoStillPicture) {
