@@ -2,20 +2,18 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "formats/gltf/gltf_writer.h"
 #include "formats/gltf/room.h"
+#include "formats/gltf/test_mesh_file.h"
 #include "formats/meshes/room.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/room.h"
 #include "graphics/light/shadow_settings.h"
+#include "graphics/reference/test_wrong_pixels.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/frame_views.h"
 #include "graphics/render/light_source.h"
-#include "graphics/render/renderer.h"
+#include "graphics/render/test_renderer.h"
 #include "graphics/shadows/room.h"
-#include "scene/data/test_scene.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/room.h"
 #include "scene/script/test_script.h"
@@ -34,16 +32,12 @@ class ScriptedShadows : public scene::ScriptTest<gl::ContextTest> {
     for (const auto furnish :
          {script::furnish, gltf::furnish, meshes::furnish, light::furnish, shadows::furnish})
       furnish(house_);
-    save("ground.glb", scene::ground(40));
-    save("table.glb", scene::box({-2, -2, 0}, {2, 2, 1}));
-    save("roof.glb", scene::box({-4, -4, 12}, {4, 4, 12.2f}));
-    save("awning.glb", scene::box({10, -2, 6}, {14, 2, 6.2f}));
+    scene::write_grey(folder_.path() / "ground.glb", scene::ground(40));
+    scene::write_grey(folder_.path() / "table.glb", scene::box({-2, -2, 0}, {2, 2, 1}));
+    scene::write_grey(folder_.path() / "roof.glb", scene::box({-4, -4, 12}, {4, 4, 12.2f}));
+    scene::write_grey(folder_.path() / "awning.glb", scene::box({10, -2, 6}, {14, 2, 6.2f}));
     camera_.world_from_camera = look_at({0, -25, 8}, {4, 0, 0});
     camera_.vertical_fov = 0.6f;
-  }
-  void save(const std::string& name, const Mesh& mesh) const {
-    EXPECT_TRUE(
-        scene::write_gltf(folder_.path() / name, *scene::model_of(mesh, scene::matt(glm::vec3(0.5f)))));
   }
   static std::string place(const std::string& shadow_map) {
     return "sun(direction=\"0.02 0 1\", irradiance=\"20 20 20\")\nmodel(name=\"floor\", "
@@ -53,9 +47,7 @@ class ScriptedShadows : public scene::ScriptTest<gl::ContextTest> {
            shadow_map + ")\n";
   }
   std::unique_ptr<render::Renderer> renderer_of(const scene::Scene& scene) const {
-    auto renderer = render::Renderer::create(scene, {}, house_.get<render::Lights>().make);
-    EXPECT_TRUE(renderer) << to_string(renderer.errors());
-    return *std::move(renderer);
+    return render::renderer_of(scene, house_.get<render::Lights>().make);
   }
   ImageF drawn(render::Renderer& renderer, const scene::Scene& scene) const {
     EXPECT_TRUE(render::draw_frame(renderer, scene, {camera_, width, height}));
@@ -125,17 +117,6 @@ TEST_F(ScriptedShadows, NamesThatThereAreNotAreReportedWithOnesThatThereAre) {
   }
 }
 
-/// Of pixels, percent that are off by more than a tenth.
-double wrong_percent(const ImageF& picture, const ImageF& truth) {
-  int wrong = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const float expected = truth.at(x, y)[1];
-      wrong += std::abs(picture.at(x, y)[1] - expected) > 0.1f * expected + 0.01f;
-    }
-  return 100.0 * wrong / (width * height);
-}
-
 /// A perspective map that begins at the camera's near plane has its texels where nothing is seen.
 TEST_F(ScriptedShadows, UpdateNearKeepsThePerspectiveMapAtWhatIsSeen) {
   auto loaded = load(place("method=perspective"));
@@ -157,8 +138,8 @@ TEST_F(ScriptedShadows, UpdateNearKeepsThePerspectiveMapAtWhatIsSeen) {
   tell("updateNear off");
   EXPECT_FALSE(scene.data<light::ShadowSettings>().updates_near);
   EXPECT_EQ(scene.data<light::ShadowSettings>().technique, ShadowTechnique::perspective);
-  const double without_percent = wrong_percent(drawn(*renderer, scene), truth),
-               with_percent = wrong_percent(with, truth);
+  const double without_percent = reference::wrong_percent(drawn(*renderer, scene), truth),
+               with_percent = reference::wrong_percent(with, truth);
   std::printf("%.2f %% of the pixels are off with updateNear, %.2f %% without\n", with_percent,
               without_percent);
   EXPECT_GT(without_percent, 2.0 * with_percent);

@@ -7,9 +7,10 @@
 #include "graphics/light/room.h"
 #include "graphics/light/shadow_settings.h"
 #include "graphics/reference/camera_ray.h"
+#include "graphics/reference/test_wrong_pixels.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/frame_views.h"
-#include "graphics/render/renderer.h"
+#include "graphics/render/test_renderer.h"
 #include "graphics/shadows/chosen_light.h"
 #include "graphics/shadows/near_map_fit.h"
 #include "scene/data/test_scene.h"
@@ -182,9 +183,7 @@ TEST(TracedSun, AMovedThingIsTracedAgainAndTheRestStaysSoft) {
 class ChosenLightTest : public gl::ContextTest {
  protected:
   std::unique_ptr<render::Renderer> renderer_of(const scene::Scene& scene) {
-    auto renderer = render::Renderer::create(scene, {}, ChosenLight::create);
-    EXPECT_TRUE(renderer) << to_string(renderer.errors());
-    return *std::move(renderer);
+    return render::renderer_of(scene, ChosenLight::create);
   }
   static ImageF drawn(render::Renderer& renderer, const scene::Scene& scene, int size) {
     EXPECT_TRUE(render::draw_frame(renderer, scene, {street_camera(), size, size}));
@@ -202,13 +201,7 @@ class ChosenLightTest : public gl::ContextTest {
     options.drawn_light = &exact;
     const ImageF truth =
         reference::trace_picture(rays, scene, renderer.sky(), street_camera(), size, size, options).radiance;
-    int wrong = 0;
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x) {
-        const float expected = truth.at(x, y)[0];
-        wrong += std::abs(picture.at(x, y)[0] - expected) > 0.1f * expected + 0.01f;
-      }
-    return 100.0 * wrong / (size * size);
+    return reference::wrong_percent(picture, truth);
   }
 };
 
