@@ -52,8 +52,10 @@ void CubeMap::draw_face(render::Renderer& renderer, int face, glm::vec3 centre, 
   view.excluded_object = excluded;
   view.subjects = subjects;
   view.shown_objects = shown;
-  // Static occluders are one list: a static reflector would be among those of its own faces.
-  view.culls_hidden = excluded >= 0 && renderer.gpu().is_moving(excluded) && resolution_ <= max_culled;
+  // Static occluders are one list, of all objects: what this view leaves out of them must move, or it would
+  // hide what stands behind it.
+  const bool leaves_out_fixed = shown || (excluded >= 0 && !renderer.gpu().is_moving(excluded));
+  view.culls_hidden = excluded >= 0 && !leaves_out_fixed && resolution_ <= max_culled;
   renderer.draw_view(view);
 }
 

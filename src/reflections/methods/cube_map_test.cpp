@@ -132,6 +132,29 @@ TEST_F(CubeMapTest, AReflectorHidesNothingInItsOwnFaces) {
         << "texel " << i;
 }
 
+/// Small static things are left out of the surroundings of some mirrors: what stands behind them is seen.
+TEST_F(CubeMapTest, WhatAFaceDoesNotShowHidesNothingInIt) {
+  const int mirror = render::add_mirror(scene_, glm::vec3(0.0f));
+  const int screen = scene::add(
+      scene_, scene::model_of(scene::box({4, -6, -6}, {4.5f, 6, 6}), scene::matt(glm::vec3(0.5f))));
+  scene::Material blue_light = scene_.objects.front().model->materials[2];
+  scene::add(scene_, scene::model_of(scene::box({6, -2, -2}, {6.5f, 2, 2}), blue_light));
+  renderer_ = *render::Renderer::create(scene_, {}, light::sun_and_sky);
+  renderer_->begin_frame(scene_, Camera{});
+  CubeMap map(resolution);
+  const auto middle_of_the_face = [&](const std::vector<std::uint8_t>* shown) {
+    map.draw_face(*renderer_, 0, glm::vec3(0.0f), mirror, render::Subjects::all, shown);
+    std::vector<glm::vec4> texels(6 * resolution * resolution);
+    glGetTextureImage(map.texture(), 0, GL_RGBA, GL_FLOAT, GLsizei(texels.size() * sizeof(glm::vec4)),
+                      texels.data());
+    return glm::vec3(texels[resolution * resolution / 2 + resolution / 2]);
+  };
+  EXPECT_GT(glm::distance(middle_of_the_face(nullptr), blue_light.emission), 0.2f) << "the screen";
+  std::vector<std::uint8_t> shown(scene_.objects.size(), 1);
+  shown[std::size_t(screen)] = 0;
+  EXPECT_LT(glm::distance(middle_of_the_face(&shown), blue_light.emission), 0.01f);
+}
+
 /// What a level of a map shows beside what a rough mirror does, over the lobe of the level's roughness: the
 /// mean distance of colours.
 float lobe_error(const CubeMap& map, glm::vec3 centre, int level) {

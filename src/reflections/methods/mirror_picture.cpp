@@ -6,6 +6,17 @@ namespace parvis::methods {
 namespace {
 
 constexpr GLuint starts_unit = 0, directions_unit = 1;  // of materials, which come later
+// Beside the middle of a pixel, in pixels: where the four samples of the main view lie with most drivers.
+constexpr std::array<glm::vec2, 4> edge_samples{glm::vec2(-0.125f, -0.375f), glm::vec2(0.375f, -0.125f),
+                                                glm::vec2(-0.375f, 0.125f), glm::vec2(0.125f, 0.375f)};
+
+gl::Texture layered(GLenum format, glm::ivec2 size, int layers) {
+  gl::Texture texture = gl::Texture::create(GL_TEXTURE_2D_ARRAY);
+  glTextureStorage3D(texture.name(), 1, format, size.x, size.y, layers);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return texture;
+}
 
 }  // namespace
 
@@ -26,18 +37,30 @@ glm::ivec4 pixels_of(const render::View& view, const Bounds& bounds) {
   return {first, glm::max(end - first, glm::ivec2(0))};
 }
 
-Result<MirrorPicture> MirrorPicture::create(const render::Renderer& renderer) {
-  Result<render::SurfacePrograms> rays = render::SurfacePrograms::create(
-      {.fragment = "reflections/methods/mirror_rays.frag"}, renderer.gpu().mirror_materials());
+Result<MirrorPicture> MirrorPicture::create(const render::Renderer& renderer, RayCount count) {
+  const std::vector<render::GpuMaterial> materials = renderer.gpu().mirror_materials();
+  render::SurfaceSource source{.fragment = "reflections/methods/mirror_rays.frag"};
+  Result<render::SurfacePrograms> rays = render::SurfacePrograms::create(source, materials);
   if (!rays) return rays.errors();
+  std::optional<render::SurfacePrograms> edges;
+  if (count == RayCount::and_edges) {
+    source.defines.emplace_back("HAS_RAYS", "");
+    Result<render::SurfacePrograms> made = render::SurfacePrograms::create(source, materials);
+    if (!made) return made.errors();
+    edges = *std::move(made);
+    edges->set("ray_starts", int(first_method_unit));
+    edges->set("ray_directions", int(first_method_unit + 1));
+  }
   Result<gl::Program> spread = gl::Program::create("graphics/render/whole_screen.vert",
                                                    "reflections/methods/mirror_picture_spread.frag");
   if (!spread) return spread.errors();
-  return MirrorPicture(*std::move(rays), *std::move(spread));
+  return MirrorPicture(*std::move(rays), std::move(edges), *std::move(spread));
 }
 
-MirrorPicture::MirrorPicture(render::SurfacePrograms ray_programs, gl::Program spread)
+MirrorPicture::MirrorPicture(render::SurfacePrograms ray_programs,
+                             std::optional<render::SurfacePrograms> edge_programs, gl::Program spread)
     : ray_programs_(std::move(ray_programs)),
+      edge_programs_(std::move(edge_programs)),
       spread_(std::move(spread)),
       no_attributes_(gl::VertexArray::create()) {}
 
@@ -45,33 +68,58 @@ void MirrorPicture::resize(int width, int height) {
   width_ = width, height_ = height;
   if (width <= room_.x && height <= room_.y) return;
   room_ = glm::max(room_, glm::ivec2(width, height));
-  starts_ = gl::texture_2d(GL_RGBA32F, room_.x, room_.y);
-  directions_ = gl::texture_2d(GL_RGBA32F, room_.x, room_.y);
-  depth_ = gl::texture_2d(GL_DEPTH_COMPONENT32F, room_.x, room_.y);
-  base_light_ = gl::texture_2d(GL_RGBA16F, room_.x, room_.y);
-  coat_light_ = gl::texture_2d(GL_R11F_G11F_B10F, room_.x, room_.y);
-  const auto framebuffer_of = [&](const gl::Texture& first, const gl::Texture& second) {
+  starts_ = layered(GL_RGBA32F, room_, layers());
+  directions_ = layered(GL_RGBA32F, room_, layers());
+  depth_ = layered(GL_DEPTH_COMPONENT32F, room_, layers());
+  base_light_ = layered(GL_RGBA16F, room_, layers());
+  coat_light_ = layered(GL_R11F_G11F_B10F, room_, layers());
+  const auto framebuffer_of = [&](const gl::Texture& first, const gl::Texture& second, int layer) {
     gl::Framebuffer framebuffer = gl::Framebuffer::create();
-    glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, first.name(), 0);
-    glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT1, second.name(), 0);
-    glNamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
+    glNamedFramebufferTextureLayer(framebuffer.name(), GL_COLOR_ATTACHMENT0, first.name(), 0, layer);
+    glNamedFramebufferTextureLayer(framebuffer.name(), GL_COLOR_ATTACHMENT1, second.name(), 0, layer);
+    glNamedFramebufferTextureLayer(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0, layer);
     constexpr GLenum both[]{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     glNamedFramebufferDrawBuffers(framebuffer.name(), 2, both);
     return framebuffer;
   };
-  rays_ = framebuffer_of(starts_, directions_);
-  light_ = framebuffer_of(base_light_, coat_light_);
+  for (int layer = 0; layer < layers(); ++layer) {
+    rays_[std::size_t(layer)] = framebuffer_of(starts_, directions_, layer);
+    light_[std::size_t(layer)] = framebuffer_of(base_light_, coat_light_, layer);
+  }
 }
 
 void MirrorPicture::draw_rays(render::Renderer& renderer) {
   resize(renderer.width(), renderer.height());
   constexpr GLfloat nothing[4]{};
-  glClearNamedFramebufferfv(rays_.name(), GL_COLOR, 1, nothing);
+  glClearNamedFramebufferfv(rays_[0].name(), GL_COLOR, 1, nothing);
   render::View view = renderer.main_view();
   view.kind = render::ViewKind::mirrors;
   view.surface_programs = &ray_programs_;
-  view.framebuffer = rays_.name();
+  view.framebuffer = rays_[0].name();
   renderer.draw_view(view);
+  if (edge_programs_) draw_edge_rays(renderer);
+}
+
+/// Surfaces that cover samples of pixels without covering their middles, wipers and outlines: the nearest at
+/// any of the samples that no ray of the first layer fits.
+void MirrorPicture::draw_edge_rays(render::Renderer& renderer) {
+  constexpr GLfloat nothing[4]{};
+  glClearNamedFramebufferfv(rays_[1].name(), GL_COLOR, 1, nothing);
+  glTextureBarrier();  // the first layer, which is read, has been written above
+  glBindTextureUnit(first_method_unit, starts_.name());
+  glBindTextureUnit(first_method_unit + 1, directions_.name());
+  render::View view = renderer.main_view();
+  view.kind = render::ViewKind::mirrors;
+  view.surface_programs = &*edge_programs_;
+  view.framebuffer = rays_[1].name();
+  const glm::mat4 clip_from_world = view.clip_from_world;
+  const glm::vec2 pixels(float(view.width), float(view.height));
+  for (const glm::vec2 sample : edge_samples) {
+    view.clip_from_world =
+        glm::translate(glm::mat4(1.0f), glm::vec3(-2.0f * sample / pixels, 0.0f)) * clip_from_world;
+    renderer.draw_view(view);
+    view.clears = false;
+  }
 }
 
 void MirrorPicture::bind_rays(const gl::Program& program) const {
@@ -81,8 +129,8 @@ void MirrorPicture::bind_rays(const gl::Program& program) const {
   program.set("ray_directions", int(directions_unit));
 }
 
-void MirrorPicture::begin_light() const {
-  glBindFramebuffer(GL_FRAMEBUFFER, light_.name());
+void MirrorPicture::begin_light(int layer) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, light_[std::size_t(layer)].name());
   glViewport(0, 0, width_, height_);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
@@ -106,9 +154,15 @@ void MirrorPicture::draw_over(const render::Renderer& renderer, const gl::Progra
 void MirrorPicture::draw_light(
     const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
     const std::function<const gl::Program&(const VisibleReflector&)>& use_program) const {
-  begin_light();
-  glDepthFunc(GL_LESS);
-  for (const VisibleReflector& reflector : reflectors) draw_over(renderer, use_program(reflector), reflector);
+  for (int layer = 0; layer < layers(); ++layer) {
+    begin_light(layer);
+    glDepthFunc(GL_LESS);
+    for (const VisibleReflector& reflector : reflectors) {
+      const gl::Program& program = use_program(reflector);
+      program.set("ray_layer", layer);
+      draw_over(renderer, program, reflector);
+    }
+  }
   spread_light(renderer, reflectors);
 }
 
@@ -116,7 +170,7 @@ void MirrorPicture::draw_light(
 /// stands in.
 void MirrorPicture::spread_light(const render::Renderer& renderer,
                                  const std::vector<VisibleReflector>& reflectors) const {
-  begin_light();
+  begin_light(0);
   glTextureBarrier();  // what is read below has been written above
   glDepthFunc(GL_EQUAL);
   spread_.use();
@@ -152,8 +206,8 @@ void MirrorPicture::put_light(const render::Renderer& renderer,
                               const std::vector<VisibleReflector>& reflectors, const MirrorRays& rays,
                               std::span<const glm::vec4> base, std::span<const glm::vec3> coat) const {
   const auto put = [&](const gl::Texture& texture, GLenum format, const void* values) {
-    glTextureSubImage2D(texture.name(), 0, rays.pixels.x, rays.pixels.y, rays.pixels.z, rays.pixels.w, format,
-                        GL_FLOAT, values);
+    glTextureSubImage3D(texture.name(), 0, rays.pixels.x, rays.pixels.y, 0, rays.pixels.z, rays.pixels.w, 1,
+                        format, GL_FLOAT, values);
   };
   put(base_light_, GL_RGBA, base.data());
   put(coat_light_, GL_RGB, coat.data());

@@ -3,7 +3,10 @@
 // shading, Saito and Takahashi 1990).
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,22 +26,28 @@ struct MirrorRays {
   std::vector<glm::vec4> directions;
 };
 
-/// Deferred reflection: ray picture in, light picture out.
+/// How many mirror rays each pixel may have.
+enum class RayCount : std::uint8_t {
+  one,       ///< through its middle
+  and_edges  ///< a second, where another surface covers a part of the pixel and no ray nearby fits it
+};
+
+/// Deferred reflection: ray picture in, light picture out. Both have a layer for each ray of a pixel.
 class MirrorPicture {
  public:
   /// For the scene of that renderer. Fails only if a shader does.
-  static Result<MirrorPicture> create(const render::Renderer& renderer);
+  static Result<MirrorPicture> create(const render::Renderer& renderer, RayCount rays = RayCount::one);
 
   /// The rays of all mirror-like surfaces that the prepared main view shows.
   void draw_rays(render::Renderer& renderer);
 
   /// What comes along them. For each reflector `use_program` uses a program of render/whole_screen.vert and a
-  /// fragment shader that reads ray_starts and ray_directions, as mirror_rays.frag writes them, and writes
-  /// the light of base and coat.
+  /// fragment shader that reads the layer ray_layer of ray_starts and ray_directions, as mirror_rays.frag
+  /// writes them, and writes the light of base and coat.
   void draw_light(const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
                   const std::function<const gl::Program&(const VisibleReflector&)>& use_program) const;
 
-  /// For methods that compute the light on the CPU: the rays of all pixels that may show one of the
+  /// For methods that compute the light on the CPU: the first rays of all pixels that may show one of the
   /// reflectors. A readback, which waits for the GPU.
   void read_rays(const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
                  MirrorRays& rays) const;
@@ -51,10 +60,13 @@ class MirrorPicture {
   void bind(const gl::Program& program, GLuint first_unit) const;
 
  private:
-  MirrorPicture(render::SurfacePrograms ray_programs, gl::Program spread);
+  MirrorPicture(render::SurfacePrograms ray_programs, std::optional<render::SurfacePrograms> edge_programs,
+                gl::Program spread);
+  int layers() const { return edge_programs_ ? 2 : 1; }
   void resize(int width, int height);
+  void draw_edge_rays(render::Renderer& renderer);
   void bind_rays(const gl::Program& program) const;
-  void begin_light() const;
+  void begin_light(int layer) const;
   void draw_over(const render::Renderer& renderer, const gl::Program& program,
                  const VisibleReflector& reflector) const;
   void spread_light(const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors) const;
@@ -62,10 +74,11 @@ class MirrorPicture {
   int width_ = 0, height_ = 0;
   glm::ivec2 room_{0};  ///< of the textures, which never shrink
   render::SurfacePrograms ray_programs_;
+  std::optional<render::SurfacePrograms> edge_programs_;
   gl::Program spread_;
   gl::Texture starts_, directions_, depth_;  ///< of rays; the nearest in each pixel
   gl::Texture base_light_, coat_light_;
-  gl::Framebuffer rays_, light_;
+  std::array<gl::Framebuffer, 2> rays_, light_;  ///< of each layer
   gl::VertexArray no_attributes_;
 };
 
