@@ -1,8 +1,10 @@
 #include "reflections/environment_rays/body_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/colour.h"
 
@@ -141,7 +143,11 @@ void offer(const Face& face, int index, vec3 middle, float reach_m, Nearest& kno
   const float facing = distance_m > 0.0f ? dot(offset, face.normal) / distance_m : 1.0f;
   // Faces meet at edges: the one that is seen most squarely decides between inside and outside.
   const bool is_nearer = distance_m < known.distance_m - alike_m;
-  if (is_nearer || std::abs(facing) > std::abs(known.facing)) known = {distance_m, facing, index, shares};
+  // Of a skin and a lining that lie in one plane, that which faces the cell.
+  constexpr float alike_facing = 1e-3f;
+  const float more = std::abs(facing) - std::abs(known.facing);
+  const bool is_better = std::abs(more) > alike_facing ? more > 0.0f : facing > known.facing;
+  if (is_nearer || is_better) known = {distance_m, facing, index, shares};
 }
 
 /// Offers a face to the cells that lie within reach of it.
@@ -191,6 +197,89 @@ void spread(const std::vector<Face>& faces, const Grid& grid, float reach_m, std
       for (int x = last.x; x >= 0; --x) ask_neighbours({x, y, z}, -1);
 }
 
+vec3 surface_of(const Nearest& nearest, const std::vector<Face>& faces) {
+  return faces[std::size_t(nearest.face)].at(nearest.shares);
+}
+
+/// For each cell whether it can be reached from the sides and the top of the box, level or downward, without
+/// passing a surface or a gap narrower than a cell: the inside of a body that is open below is not, but for
+/// what lies behind its wheel arches.
+std::vector<std::uint8_t> reached_cells(const Grid& grid, const std::vector<Face>& faces,
+                                        const std::vector<Nearest>& cells) {
+  const auto is_behind = [&](glm::ivec3 cell, glm::ivec3 other) {  // the surface next to `cell`
+    const Nearest& nearest = cells[grid.index(cell)];
+    if (nearest.face == scene::no_index) return false;
+    const vec3 surface = surface_of(nearest, faces);
+    return dot(grid.middle(other) - surface, grid.middle(cell) - surface) <= 0.0f;
+  };
+  const auto is_facing = [&](glm::ivec3 cell) { return cells[grid.index(cell)].facing > 0.0f; };
+  std::vector<std::uint8_t> is_reached(cells.size(), 0);
+  std::vector<glm::ivec3> next;
+  const auto reach = [&](glm::ivec3 cell) {
+    if (std::exchange(is_reached[grid.index(cell)], std::uint8_t(1)) == 0) next.push_back(cell);
+  };
+  const glm::ivec3 last = grid.size - 1;
+  for (int z = 0; z <= last.z; ++z)
+    for (int y = 0; y <= last.y; ++y) {
+      const bool is_side = y == 0 || y == last.y || z == last.z;
+      for (int x = 0; x <= last.x; x += is_side ? 1 : last.x) reach({x, y, z});
+    }
+  constexpr std::array<glm::ivec3, 5> steps{glm::ivec3(-1, 0, 0), glm::ivec3(1, 0, 0), glm::ivec3(0, -1, 0),
+                                            glm::ivec3(0, 1, 0), glm::ivec3(0, 0, -1)};
+  while (!next.empty()) {
+    const glm::ivec3 cell = next.back();
+    next.pop_back();
+    for (const glm::ivec3 step : steps) {
+      const glm::ivec3 beside = cell + step;
+      if (beside != glm::clamp(beside, glm::ivec3(0), last)) continue;
+      // Where a surface passes between the two, one is nearer to it than half of the way.
+      const float half_way_m = 0.5f * glm::length(vec3(step) * grid.cell_m);
+      const bool is_clear =
+          std::min(cells[grid.index(cell)].distance_m, cells[grid.index(beside)].distance_m) > half_way_m;
+      if (is_clear ||
+          (!is_behind(cell, beside) && !is_behind(beside, cell) && is_facing(cell) && is_facing(beside)))
+        reach(beside);
+    }
+  }
+  return is_reached;
+}
+
+/// Which cells of a field lie outside of its body. What is behind the outer surface belongs to the inside, be
+/// it a driver, seats or a lining: between them and a pane nearer than a cell the field would have no inside,
+/// and rays would pass the pane. Faces alone do not tell: linings face the other way.
+class Outside {
+ public:
+  Outside(const Grid& grid, const std::vector<Face>& faces, const std::vector<Nearest>& cells)
+      : grid_(grid), faces_(faces), cells_(cells), is_reached_(reached_cells(grid, faces, cells)) {}
+
+  bool holds(glm::ivec3 cell) const {
+    const Nearest& nearest = cells_[grid_.index(cell)];
+    if (!is_reached(cell)) return false;
+    return nearest.face == scene::no_index || nearest.facing >= 0.0f || !is_reached_behind(cell);
+  }
+
+ private:
+  bool is_reached(glm::ivec3 cell) const { return is_reached_[grid_.index(cell)] != 0; }
+
+  /// Whether the other side of the surface next to a cell is reached, too: of an open sheet the faces tell
+  /// which side is its outside.
+  bool is_reached_behind(glm::ivec3 cell) const {
+    const vec3 surface = surface_of(cells_[grid_.index(cell)], faces_);
+    const vec3 offset = surface - grid_.middle(cell);
+    const float distance_m = glm::length(offset);
+    if (!(distance_m > 0.0f)) return true;
+    const float beyond_m = 1.5f * std::max(grid_.cell_m.x, std::max(grid_.cell_m.y, grid_.cell_m.z));
+    const vec3 behind = surface + beyond_m / distance_m * offset;
+    const glm::ivec3 there = glm::ivec3(glm::floor((behind - grid_.low) / grid_.cell_m));
+    return there != glm::clamp(there, glm::ivec3(0), grid_.size - 1) || is_reached(there);
+  }
+
+  const Grid& grid_;
+  const std::vector<Face>& faces_;
+  const std::vector<Nearest>& cells_;
+  std::vector<std::uint8_t> is_reached_;
+};
+
 }  // namespace
 
 glm::ivec3 BodyField::size() {
@@ -211,17 +300,21 @@ BodyField body_field(const scene::Model& model, const std::vector<scene::Materia
   for (std::size_t i = 0; i < faces.size(); ++i) enter(faces[i], int(i), grid, exact_share * reach_m, cells);
   spread(faces, grid, reach_m, cells);
 
+  const Outside outside(grid, faces, cells);
   field.cells.resize(cells.size());
-  bool is_inside = false;  // along a row, cells far from the surface lie where the last near one did
+  bool is_inside = false;  // along a row, reached cells far from the surface lie where the last near one did
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i % std::size_t(size.x) == 0) is_inside = false;
+    const glm::ivec3 cell(int(i) % size.x, int(i) / size.x % size.y, int(i) / (size.x * size.y));
+    if (cell.x == 0) is_inside = false;
     const Nearest& nearest = cells[i];
     float share = 1.0f;
     vec3 colour(0.0f);
     if (nearest.face != scene::no_index) {
-      is_inside = nearest.facing < 0.0f;
+      is_inside = !outside.holds(cell);
       share = nearest.distance_m / reach_m;
       colour = colour_at(model, faces[std::size_t(nearest.face)], nearest.shares);
+    } else if (!outside.holds(cell)) {
+      is_inside = true;
     }
     const float distance = 0.5f + 0.5f * (is_inside ? -share : share);
     field.cells[i] =

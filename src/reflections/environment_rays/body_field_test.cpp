@@ -94,6 +94,56 @@ TEST(BodyField, ACarShowsItsOwnPartsFromFifteenCentimetresOn) {
   EXPECT_NEAR(distance_to_body(field, {0.675f, -1.02f, 0.925f}, {0, 1, 0}, 10.0f, true), 0.12f, 0.02f);
 }
 
+/// A closed cabin with opaque panes: behind them a driver, a lining 3 cm behind the skin, and one in its
+/// plane that faces inward.
+scene::Model cabin(bool is_furnished) {
+  scene::Model car;
+  car.materials.resize(1);
+  car.parts.resize(1);
+  Mesh& mesh = car.parts[0].mesh;
+  if (is_furnished)
+    append(mesh,
+           scene::quad({-1.0f, -0.7f, 1.4f}, {-1.0f, 0.7f, 1.4f}, {1.0f, 0.7f, 1.4f}, {1.0f, -0.7f, 1.4f}));
+  append(mesh, scene::box({-2.2f, -0.9f, 0.0f}, {2.2f, 0.9f, 1.4f}));
+  if (!is_furnished) return car;
+  append(mesh, scene::box({-0.2f, -0.5f, 0.4f}, {0.3f, 0.1f, 1.2f}));
+  append(mesh, scene::box({-2.1f, -0.8f, 0.1f}, {2.1f, 0.8f, 1.37f}));
+  return car;
+}
+
+TEST(BodyField, WhatIsBehindOpaquePanesIsInside) {
+  const BodyField field = field_of(cabin(true));
+  const glm::ivec3 size = BodyField::size();
+  const glm::vec3 cell_m = field.box.size() / glm::vec3(size);
+  int outside = 0;
+  for (int z = 0; z < size.z; ++z)
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) {
+        const glm::vec3 at = field.box.min + (glm::vec3(x, y, z) + 0.5f) * cell_m;
+        const bool is_within =
+            std::abs(at.x) < 2.19f && std::abs(at.y) < 0.89f && at.z > 0.01f && at.z < 1.39f;
+        outside += is_within && field.cells[std::size_t(x + size.x * (y + size.y * z))].w > 128;
+      }
+  EXPECT_EQ(outside, 0) << "of the cells within the skin";
+}
+
+/// Rays that leave the roof with its lining, and rays to it, run as those of a car that is empty.
+TEST(BodyField, ALiningCloseBehindTheSkinChangesNoRay) {
+  const BodyField empty = field_of(cabin(false)), furnished = field_of(cabin(true));
+  Random random(7);
+  int leave = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const glm::vec3 on_roof(random.uniform(-2.0f, 2.0f), random.uniform(-0.8f, 0.8f), 1.4f);
+    glm::vec3 way = direction_of(random);
+    way.z = std::max(std::abs(way.z), 0.05f);
+    way = glm::normalize(way);
+    leave += distance_to_body(furnished, on_roof, way, 10.0f, true) == 10.0f;
+    const float met = distance_to_body(furnished, on_roof + 3.0f * way, -way, 10.0f);
+    EXPECT_NEAR(met, distance_to_body(empty, on_roof + 3.0f * way, -way, 10.0f), 0.03f);
+  }
+  EXPECT_EQ(leave, 4000);
+}
+
 TEST(BodyField, RaysThatLeaveTheBodyDoNotMeetWhereTheyStart) {
   const BodyField field = field_of(ball());
   Random random(5);

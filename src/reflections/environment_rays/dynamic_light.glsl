@@ -17,30 +17,45 @@ vec3 irradiance_of_sky(vec3 point, vec3 normal, BouncedCell bounced) {
   return share * frame_sky_irradiance(normal);
 }
 
+// Light at a place, without the shade of dynamic objects on its sky.
+struct PlaceLight {
+  vec3 sky;     // irradiance by the part of the sky that is seen
+  vec3 others;  // and by other surfaces and lamps
+  float sun;    // share of the sun that is seen, beside dynamic objects
+};
+
+// `sun_point`: where the sun is looked for.
+PlaceLight light_at(vec3 point, vec3 normal, vec3 sun_point) {
+  BouncedCell bounced = bounced_cell(point, normal);
+  PlaceLight light;
+  light.sky = irradiance_of_sky(point, normal, bounced);
+  light.others = bounced_irradiance(bounced, normal) + irradiance_of_lamps(point, normal);
+  light.sun = visible_sun(sun_point, normal);
+  return light;
+}
+
+// Above the ground that a kerb hides.
+vec3 above_ground(vec3 point) {
+  return point + max_ground_error_m / max(frame_to_sun.z, 0.2f) * frame_to_sun.xyz;
+}
+
 // Ratio of the ground's irradiance with and without dynamic objects: no map shows the shadows of cars. Walls
 // are left out, because the height field is too coarse for them.
-vec3 light_left_by_bodies(vec3 point) {
-  const vec3 normal = vec3(0.0f, 0.0f, 1.0f);
-  BouncedCell bounced = bounced_cell(point, normal);
-  vec3 sky = irradiance_of_sky(point, normal, bounced);
+vec3 light_left_by_bodies(vec3 point, vec3 normal, PlaceLight light) {
   vec3 sun = max(dot(normal, frame_to_sun.xyz), 0.0f) * frame_sun_irradiance.rgb;
   float fixed_sun = visible_sun_without_bodies(point, normal);
-  vec3 above_ground = point + max_ground_error_m / max(frame_to_sun.z, 0.2f) * frame_to_sun.xyz;
-  float sun_share = min(visible_sun(above_ground, normal), fixed_sun);
+  float sun_share = min(light.sun, fixed_sun);
   float sky_share = sky_share_beside_bodies(point, normal, -1);
-  vec3 others = bounced_irradiance(bounced, normal) + irradiance_of_lamps(point, normal);
-  return (sky_share * sky + sun_share * sun + others) / max(sky + fixed_sun * sun + others, vec3(1e-4f));
+  return (sky_share * light.sky + sun_share * sun + light.others) /
+         max(light.sky + fixed_sun * sun + light.others, vec3(1e-4f));
 }
 
 // Radiance of a dynamic object: diffuse colour below a clear coat, which reflects the map nearest to it.
-vec3 radiance_of_body(BodyHit body, vec3 point, vec3 direction, float map) {
-  BouncedCell bounced = bounced_cell(point, body.normal);
-  vec3 sky = irradiance_of_sky(point, body.normal, bounced);
+vec3 radiance_of_body(BodyHit body, vec3 direction, float map, PlaceLight light) {
   float facing_sun = max(dot(body.normal, frame_to_sun.xyz), 0.0f);
-  vec3 others = bounced_irradiance(bounced, body.normal) + irradiance_of_lamps(point, body.normal);
-  vec3 light = sky + others + facing_sun * visible_sun(point, body.normal) * frame_sun_irradiance.rgb;
+  vec3 irradiance = light.sky + light.others + facing_sun * light.sun * frame_sun_irradiance.rgb;
   vec2 uv = layer_uv(reflect(direction, body.normal), gloss_side, gloss_border);
   vec3 mirrored = textureLod(map_glosses, vec3(gloss_uv(uv, 0.0f), map), 0.0f).rgb;
   float mirrors = 0.04f + 0.96f * schlick_weight(-dot(direction, body.normal));
-  return (1.0f - mirrors) / pi * body.base_colour * light + mirrors * mirrored;
+  return (1.0f - mirrors) / pi * body.base_colour * irradiance + mirrors * mirrored;
 }

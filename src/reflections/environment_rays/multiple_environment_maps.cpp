@@ -72,7 +72,8 @@ Result<std::unique_ptr<MultipleEnvironmentMaps>> MultipleEnvironmentMaps::create
   if (!maps) return maps.errors();
   Result<MapRenewal> renewal = MapRenewal::create(map_resolution(scene));
   if (!renewal) return renewal.errors();
-  Result<methods::MirrorPicture> picture = methods::MirrorPicture::create(renderer);
+  Result<methods::MirrorPicture> picture =
+      methods::MirrorPicture::create(renderer, methods::RayCount::and_edges);
   if (!picture) return picture.errors();
   Programs programs;
   for (std::size_t detail = 0; detail < programs.size(); ++detail) {

@@ -65,17 +65,19 @@ float cell_height(ivec2 cell, int level) { return texelFetch(heights, cell, leve
 // the best map has recorded a surface behind it, the ray continues with the next cell.
 HeightHit walk_under(HeightfieldGrid grid, vec3 at, vec3 direction, float reach, out vec4 places[2],
                      out float weights[2], out float seen) {
-  HeightHit hit = walk_pyramid(grid, at, direction, reach);
-  seen = choose_maps(at, direction, at + hit.distance * direction, places, weights);
-  if (detail != all_detail) return hit;
-  for (int i = 0; i < max_cells_under; ++i) {
-    if (hit.kind != hit_side || !is_seen_through(at + hit.distance * direction, places[0])) break;
-    float from =
-        hit.distance + 0.01f * grid.cell_m;  // inside the cell, which the ray then leaves without a hit
+  HeightHit hit;
+  float from = 0.0f;
+  bool goes_on;
+  int passed = 0;
+  do {
     hit = walk_pyramid(grid, at + from * direction, direction, reach - from);
     hit.distance += from;
     seen = choose_maps(at, direction, at + hit.distance * direction, places, weights);
-  }
+    goes_on = detail == all_detail && passed < max_cells_under && hit.kind == hit_side &&
+              is_seen_through(at + hit.distance * direction, places[0]);
+    from = hit.distance + 0.01f * grid.cell_m;  // inside the cell, which the ray then leaves without a hit
+    ++passed;
+  } while (goes_on);
   return hit;
 }
 
@@ -116,6 +118,26 @@ void look_into_maps(vec3 point, vec4 places[2], float weights[2]) {
   reflected.weight[0] = 1.0f - reflected.weight[1];
 }
 
+// Sets what dynamic objects change: the radiance of the one that is hit, and the shade on the ground. Of most
+// rays one is wanted or none: both take their light from one place in the code, which a second round serves
+// only where a ray shows both.
+void light_dynamic_parts(BodyHit body, bool wants_body, vec3 body_point, bool wants_ground, vec3 ground_point,
+                         float map) {
+  bool goes_on;
+  do {
+    vec3 point = wants_body ? body_point : ground_point;
+    vec3 normal = wants_body ? body.normal : vec3(0.0f, 0.0f, 1.0f);
+    PlaceLight light = light_at(point, normal, wants_body ? point : above_ground(point));
+    goes_on = wants_body && wants_ground;
+    if (wants_body) {
+      reflected.body_radiance = radiance_of_body(body, reflected.direction, map, light);
+    } else if (wants_ground) {
+      reflected.shade = light_left_by_bodies(point, normal, light);
+    }
+    wants_body = false;
+  } while (goes_on);
+}
+
 // A dynamic object in front of all that the maps show, or the surface that the best map has recorded at the
 // hit.
 void trace_mirror_ray(vec3 at, vec3 direction) {
@@ -125,13 +147,8 @@ void trace_mirror_ray(vec3 at, vec3 direction) {
   float weights[2], seen;
   bool is_whole = body.share == 1.0f;
   HeightHit hit = hit_of_ray(at, direction, is_whole ? body.distance : mirror_reach_m, places, weights, seen);
-  if (body.body >= 0 && (is_whole ? hit.kind == hit_nothing : hit.distance > body.distance)) {
-    vec3 point = at + body.distance * direction;
-    reflected.body_radiance = radiance_of_body(body, point, direction, places[0].w);
-    reflected.body_share = body.share;
-    if (is_whole) return;
-  }
-
+  bool hits_body = body.body >= 0 && (is_whole ? hit.kind == hit_nothing : hit.distance > body.distance);
+  reflected.body_share = hits_body ? body.share : 0.0f;
   reflected.distance = hit.distance;
   reflected.is_ground = hit.kind == hit_top;
   reflected.open_sky = hit.kind == hit_nothing ? 1.0f - seen : 0.0f;
@@ -139,8 +156,9 @@ void trace_mirror_ray(vec3 at, vec3 direction) {
     reflected.distance = hit_on_map(at, direction, hit.distance, places[0].xyz, places[0].w);
   vec3 point = at + reflected.distance * direction;
   look_into_maps(point, places, weights);
-  if (hit.kind == hit_top && hit.distance < shade_reach_m && detail == all_detail)
-    reflected.shade = light_left_by_bodies(point);
+  if (detail == all_detail)
+    light_dynamic_parts(body, hits_body, at + body.distance * direction,
+                        reflected.is_ground && hit.distance < shade_reach_m, point, places[0].w);
 }
 
 // Derivative of the mirror direction with respect to pixels: the smaller of the two one-sided differences, so
@@ -148,8 +166,8 @@ void trace_mirror_ray(vec3 at, vec3 direction) {
 vec3 change_of_direction(vec3 direction, ivec2 here, ivec2 step) {
   vec3 smaller = vec3(2.0f);
   for (int side = -1; side <= 1; side += 2) {
-    vec4 there = texelFetch(
-        ray_directions, clamp(here + side * step, ivec2(0), textureSize(ray_directions, 0) - ivec2(1)), 0);
+    ivec2 pixel = clamp(here + side * step, ivec2(0), textureSize(ray_directions, 0).xy - ivec2(1));
+    vec4 there = texelFetch(ray_directions, ivec3(pixel, ray_layer), 0);
     vec3 change = float(side) * (octahedral_direction(there.xy) - direction);
     if (int(there.w) == reflecting_object + 1 && dot(change, change) < dot(smaller, smaller))
       smaller = change;
@@ -181,31 +199,38 @@ void look_along(vec3 at, vec3 direction) {
   reflected.narrow *= reflected.distance;
 }
 
-// Radiance of the hit, prefiltered for a roughness. `over_ground`: the share of the lobe that passes above
-// the ground hit by its centre, to surfaces behind it.
-vec3 reflected_radiance(float roughness, float over_ground) {
-  vec3 sum = vec3(0.0f);
-  for (int k = 0; k < max_maps && reflected.body_share < 1.0f; ++k) {
-    if (reflected.weight[k] == 0.0f) continue;
-    // A lobe that hits near the reflector is narrow as seen from a map farther away.
-    float seen_roughness = roughness * sqrt(min(reflected.distance / length(reflected.from_map[k]), 1.0f));
-    vec3 to_hit = normalize(reflected.from_map[k]);
-    vec3 seen = seen_roughness < min_gloss ? sharp_radiance(k, lobe_texels(seen_roughness, layer_size.x))
-                                           : glossy_radiance(k, to_hit, seen_roughness);
-    if (over_ground > 0.0f)
-      seen = mix(seen, glossy_radiance(k, normalize(to_hit + reflected.direction), roughness), over_ground);
-    sum += reflected.weight[k] * seen;
-  }
-  sum = mix(sum, sky_radiance(reflected.direction, roughness), reflected.open_sky);
-  return min(mix(reflected.shade * sum, reflected.body_radiance, reflected.body_share), vec3(max_radiance));
+// Radiance of the hit, prefiltered for the roughness of both layers. `over_ground`: the share of the base's
+// lobe that passes above the ground hit by its centre, to surfaces behind it.
+LayerRadiance reflected_radiance(vec2 roughness, float over_ground) {
+  LayerRadiance sum = LayerRadiance(vec3(0.0f), vec3(0.0f));
+  MapView view = MapView(reflected.from_map[0], reflected.map[0]);
+  float weight = reflected.weight[0];
+  int k = 0;
+  do {
+    LayerRadiance seen = radiance_in_map(view, roughness, over_ground);
+    sum.base += weight * seen.base;
+    sum.coat += weight * seen.coat;
+    view = MapView(reflected.from_map[1], reflected.map[1]);
+    weight = reflected.weight[1];
+    ++k;
+  } while (k < max_maps && weight > 0.0f);
+  return sum;
+}
+
+// What of it is seen: beside dynamic objects and the open sky.
+vec3 seen_radiance(vec3 in_maps, float roughness) {
+  vec3 behind = mix(in_maps, sky_radiance(reflected.direction, roughness), reflected.open_sky);
+  return min(mix(reflected.shade * behind, reflected.body_radiance, reflected.body_share),
+             vec3(max_radiance));
 }
 
 void main() {
-  ivec2 here = ivec2(gl_FragCoord.xy);
+  ivec3 here = ivec3(ivec2(gl_FragCoord.xy), ray_layer);
   vec4 start = texelFetch(ray_starts, here, 0), ray = texelFetch(ray_directions, here, 0);
   if (int(ray.w) != reflecting_object + 1) discard;
   look_along(start.xyz, octahedral_direction(ray.xy));
   bool passes_ground = reflected.is_ground && start.w > min_wide_lobe;
-  base_radiance = vec4(reflected_radiance(start.w, passes_ground ? share_over_ground : 0.0f), 1.0f);
-  coat_radiance = reflected_radiance(ray.z, 0.0f);
+  LayerRadiance in_maps = reflected_radiance(vec2(start.w, ray.z), passes_ground ? share_over_ground : 0.0f);
+  base_radiance = vec4(seen_radiance(in_maps.base, start.w), 1.0f);
+  coat_radiance = seen_radiance(in_maps.coat, ray.z);
 }
