@@ -28,7 +28,7 @@ TEST_F(DisplayShadersTest, EveryDisplayShaderCompilesInBothDialects) {
               {"IS_LEAF", ""},           {"ANISOTROPY_BY_TAPS", ""},
               {"HAS_VERTEX_SEARCH", ""}, {"MIDPOINT_ITERATIONS", "9"},
               {"IS_GLASS", ""},          {"HAS_RELIEF", ""},
-              {"ONE_SAMPLE", ""}};
+              {"ONE_SAMPLE", ""},        {"HAS_RAYS", ""}};
   // With the overlays of surfaces (render::SurfaceSource), which lie over any method.
   const std::vector<std::string> overlays{"reflections/virtual_objects/near_picture.glsl",
                                           "reflections/refraction/glass_picture.glsl"};
