@@ -30,6 +30,12 @@ void add_tours(const std::vector<scene::Node>& nodes, std::vector<std::string>& 
   }
 }
 
+/// The name of a method, for people.
+std::string with_spaces(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
 std::string title_of(const scene::Node& scenario) {
   const std::string title = scenario.text("title");
   return title.empty() ? scenario.text("name") : title;
@@ -183,13 +189,16 @@ void Panel::draw_light(Visit& visit) {
     visit.set_exposure(exposure);
 
   const methods::Registry& registry = visit.stage().house().get<methods::Registry>();
-  const std::vector<std::string> names = registry.names();
-  std::vector<std::string> shown = names;
-  for (std::string& name : shown) std::replace(name.begin(), name.end(), '_', ' ');
-  std::string current = registry.name_of(scene);
-  std::replace(current.begin(), current.end(), '_', ' ');
-  if (const auto method = rows_.choice("Reflections", shown, current,
-                                       "how mirror-like parts of moving things see their surroundings"))
+  std::vector<std::string> names = registry.names();
+  names.insert(names.begin(), methods::automatic);
+  std::vector<std::string> shown(names.size());
+  std::ranges::transform(names, shown.begin(), with_spaces);
+  const std::string& named = methods::settings(scene).method;
+  const std::string current = with_spaces(named.empty() ? methods::automatic : named);
+  const std::string help =
+      fmt::format("how mirror-like parts of moving things see their surroundings; this scene has {}",
+                  with_spaces(registry.name_of(scene)));
+  if (const auto method = rows_.choice("Reflections", shown, current, help))
     visit.set_reflection(names[std::size_t(*method)]);
 }
 

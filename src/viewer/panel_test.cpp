@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "graphics/render/golden.h"
+#include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "viewer/test_square.h"
 
@@ -65,6 +66,15 @@ class PanelTest : public SquareTest {
     panel_->draw(*visit_, statistics_);
     ImGui::Render();
     visit_->step({}, frame_s);
+  }
+  /// What a frame of the panel says.
+  std::string text() {
+    imgui_->begin_frame();
+    ImGui::LogToClipboard();
+    panel_->draw(*visit_, statistics_);
+    ImGui::LogFinish();
+    ImGui::Render();
+    return ImGui::GetClipboardText();
   }
   Image8 picture() {
     for (int i = 0; i < 2; ++i) frame();
@@ -193,6 +203,26 @@ TEST_F(PanelTest, LightIsDraggedAndWritten) {
   EXPECT_NEAR(visit_->scene().exposure, 2.0f, 1e-5f);
   choose("Reflections", "shared cube map");
   EXPECT_EQ(methods::settings(visit_->scene()).method, "shared_cube_map");
+}
+
+/// A scene that leaves the choice of the method says so, and can be given it back.
+TEST_F(PanelTest, TheMethodOfReflectionIsLeftToTheSceneAgain) {
+  const auto method = [this] { return methods::settings(visit_->scene()).method; };
+  const auto shows_automatic = [this] { return text().find(methods::automatic) != std::string::npos; };
+  EXPECT_FALSE(shows_automatic()) << "the script names another";
+  choose("Reflections", "automatic");
+  EXPECT_EQ(method(), methods::automatic);
+  EXPECT_TRUE(shows_automatic());
+  choose("Reflections", "shared cube map");
+  EXPECT_EQ(method(), "shared_cube_map");
+  EXPECT_FALSE(shows_automatic());
+  choose("Reflections", "automatic");
+  EXPECT_EQ(method(), methods::automatic);
+  EXPECT_TRUE(visit_->notices().empty()) << told();
+
+  open("camera(name=street, position=\"-7 -11 1.7\", target=\"0 4 2.2\")\n");
+  put_up(1.0f);
+  EXPECT_TRUE(shows_automatic()) << "without a node reflection, too";
 }
 
 TEST_F(PanelTest, TheHourOfDayLightIsDraggedAndWritten) {
