@@ -258,18 +258,17 @@ Status turn_and_scale(const CalibrationJob& job, PhotographSet& set) {
   return Done{};
 }
 
-/// Masks and gains that somebody gave the photographs of an earlier run. What of it cannot be read is in the
-/// problems.
-void keep_masks_and_gains(const fs::path& folder, LoadedSet& loaded) {
-  if (std::error_code code; !fs::exists(folder / "photographs.json", code)) return;
-  const Result<LoadedSet> before = read_photograph_set(folder);
-  if (!before) {
-    loaded.problems.insert(loaded.problems.end(), before.errors().begin(), before.errors().end());
-    return;
-  }
-  for (Photograph& photograph : loaded.set.photographs)
-    if (const Photograph* known = find(before->set, photograph.name))
-      photograph.mask = known->mask, photograph.gain = known->gain;
+/// Masks and gains that somebody gave the photographs of an earlier run. Errors: they cannot be read; the
+/// file that holds them must not be written then.
+Result<MasksAndGains> masks_and_gains(const fs::path& folder) {
+  Result<MasksAndGains> given = read_masks_and_gains(folder);
+  if (given) return given;
+  Errors errors = given.errors();
+  errors.push_back(
+      error("{}: its masks and gains would be lost, so that nothing was written. Mend it, or move or delete "
+            "it to calibrate without them",
+            (folder / "photographs.json").string()));
+  return errors;
 }
 
 Result<LoadedSet> reconstruct(const CalibrationJob& job, const Pictures& pictures, const WorkFolder& work) {
@@ -303,6 +302,8 @@ Result<LoadedSet> reconstruct(const CalibrationJob& job, const Pictures& picture
 }  // namespace
 
 Result<LoadedSet> calibrate(const CalibrationJob& job) {
+  // Asked before COLMAP's long run, and again after it: somebody may have changed the file meanwhile.
+  if (const Result<MasksAndGains> readable = masks_and_gains(job.folder); !readable) return readable.errors();
   Errors problems;
   const Pictures pictures = usable_pictures(job.pictures, problems);
   if (pictures.names.size() < 2) {
@@ -322,8 +323,12 @@ Result<LoadedSet> calibrate(const CalibrationJob& job) {
   if (Status status = turn_and_scale(job, loaded->set); !status) return status.errors();
   const Errors misfits = cameras_that_do_not_fit(loaded->set);
   loaded->problems.insert(loaded->problems.end(), misfits.begin(), misfits.end());
-  keep_masks_and_gains(job.folder, *loaded);
-  if (Status status = write_photograph_set(job.folder, loaded->set, job.pictures); !status)
+  const Result<MasksAndGains> given = masks_and_gains(job.folder);
+  if (!given) return given.errors();
+  for (Photograph& photograph : loaded->set.photographs)
+    if (const auto known = given->find(photograph.name); known != given->end())
+      photograph.mask = known->second.mask, photograph.gain = known->second.gain;
+  if (Status status = write_photograph_set(job.folder, loaded->set, job.pictures, *given); !status)
     return status.errors();
   return loaded;
 }

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "base/files.h"
 #include "base/image_io.h"
 #include "base/test_folder.h"
 #include "capture/photographs/program.h"
@@ -70,7 +71,8 @@ TEST(Calibrate, FindsCamerasAndNamesWhatItCannotUse) {
   PhotographSet masked = calibrated->set;
   masked.photographs[1].mask = job.folder / "masks" / "1.png";
   masked.photographs[2].gain = {1.25, 1.0, 0.75};
-  ASSERT_TRUE(write_photograph_set(job.folder, masked, job.pictures));
+  const MasksAndGains of_others{{"elsewhere.png", {job.folder / "masks" / "e.png", {1.0, 2.0, 3.0}}}};
+  ASSERT_TRUE(write_photograph_set(job.folder, masked, job.pictures, of_others));
   const auto again = calibrate(job);
   ASSERT_TRUE(again) << to_string(again.errors());
   EXPECT_EQ(again->set.points.size(), calibrated->set.points.size());
@@ -79,7 +81,46 @@ TEST(Calibrate, FindsCamerasAndNamesWhatItCannotUse) {
   EXPECT_EQ(kept->set.photographs.size(), 5u);
   EXPECT_EQ(kept->set.photographs[1].mask, job.folder / "masks" / "1.png");
   EXPECT_EQ(kept->set.photographs[2].gain, glm::dvec3(1.25, 1.0, 0.75));
+  const auto given = read_masks_and_gains(job.folder);
+  ASSERT_TRUE(given) << to_string(given.errors());
+  ASSERT_TRUE(given->contains("elsewhere.png")) << "it has no camera, and may have one later";
+  EXPECT_EQ(given->at("elsewhere.png").mask, job.folder / "masks" / "e.png");
+  EXPECT_EQ(given->at("elsewhere.png").gain, glm::dvec3(1.0, 2.0, 3.0));
   EXPECT_GT(calibration_report(kept->set).size(), 200u);
+}
+
+TEST(Calibrate, KeepsAFileOfMasksThatCannotBeRead) {
+  const TestFolder folder;
+  const auto pictures = folder.path() / "pictures", file = folder.path() / "out" / "photographs.json";
+  std::filesystem::create_directories(pictures);
+  for (const Photograph& photograph : test_photographs(2, 80, 60).photographs)
+    ASSERT_TRUE(write_image(pictures / photograph.name, test_picture(photograph, 1)));
+  CalibrationJob job;
+  job.pictures = pictures;
+  job.folder = folder.path() / "out";
+  const std::string begin =
+      "{\"pictures\": \"../pictures\",\n \"photographs\": [\n  {\"name\": \"a.jpg\"},\n  ";
+  const std::pair<std::string, std::string> slips[] = {
+      {begin + "{\"name\": \"b.jpg\" \"mask\": \"b.png\"}]}", ":4:25: this is no JSON"},  // a comma lacks
+      {begin + "{\"name\": \"b.jpg\", \"gain\": [1.2, 1.0]}]}", ":4:12: expected a name and three gains"},
+      {begin + "{\"name\": \"b.jpg\", \"gain\": [1.2, 1.0, \"1\"]}]}", ":4:12: expected a name"},
+      {begin + "{\"name\": \"b.jpg\", \"mask\": 7}]}", ":4:12: expected the path of a picture"},
+      {begin + "{\"name\": \"b.jpg\", \"mask\": \"/etc/b.png\"}]}", "/etc/b.png: a mask outside"},
+      {"", ":1:1: this is no JSON"},
+  };
+  for (const auto& [text, message] : slips) {
+    folder.write("out/photographs.json", text);
+    const auto calibrated = calibrate(job);
+    ASSERT_FALSE(calibrated) << text;
+    const std::string errors = to_string(calibrated.errors());
+    EXPECT_NE(errors.find(message), std::string::npos) << errors;
+    EXPECT_NE(errors.find(file.string() + ": its masks and gains would be lost"), std::string::npos)
+        << errors;
+    const auto kept = read_file(file);
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(*kept, text);
+    EXPECT_FALSE(std::filesystem::exists(job.folder / "colmap")) << "before any work";
+  }
 }
 
 TEST(Calibrate, TwoPlacesAreDistinguished) {

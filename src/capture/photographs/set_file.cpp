@@ -1,8 +1,10 @@
 #include "capture/photographs/set_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <unordered_map>
 
 #include "base/files.h"
@@ -40,29 +42,76 @@ Result<fs::path> mask_file(const std::string& stored_path, const fs::path& folde
 
 using ByName = std::unordered_map<std::string, Photograph*>;
 
-/// Gains of one photograph; false where the entry is none.
-bool apply_gains(const Json& entry, const ByName& photographs) {
-  if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string()) return false;
-  const std::string name = entry["name"];
-  const Json gain = entry.value("gain", Json::array());
-  const auto found = photographs.find(name);
-  if (found == photographs.end() || !gain.is_array() || gain.size() != 3) return true;
-  for (int c = 0; c < 3; ++c) {
-    if (!gain[std::size_t(c)].is_number() || !(gain[std::size_t(c)].get<double>() > 0.0)) return false;
-    found->second->gain[c] = gain[std::size_t(c)].get<double>();
+/// The file, as text and parsed: an object with "pictures".
+struct SetJson {
+  std::string file, text;
+  Json json;
+
+  /// Where the character `offset` of the text stands.
+  FileLocation place_of(std::size_t offset) const {
+    const std::string_view before = std::string_view(text).substr(0, offset);
+    return {file, int(std::ranges::count(before, '\n')) + 1,
+            int(before.size() - (before.rfind('\n') + 1)) + 1};  // npos + 1 is 0
   }
-  return true;
+  /// Where `entry` is named; the whole file where it is not.
+  FileLocation place_of(const Json& entry) const {
+    const std::size_t at = name_of(entry) ? text.find(Json(*name_of(entry)).dump()) : std::string::npos;
+    return at == std::string::npos ? FileLocation{file, 0, 0} : place_of(at);
+  }
+  /// What the file says of each photograph.
+  Json entries() const { return json.value("photographs", Json::array()); }
+  static std::optional<std::string> name_of(const Json& entry) {
+    if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string()) return std::nullopt;
+    return entry["name"].get<std::string>();
+  }
+};
+
+Result<SetJson> read_set_json(const fs::path& folder) {
+  SetJson set{(folder / file_name).string(), {}, {}};
+  Result<std::string> text = read_file(folder / file_name);
+  if (!text) return text.errors();
+  set.text = *std::move(text);
+  if (Status depth = check_json_depth(set.text, set.file); !depth) return depth.errors();
+  try {
+    set.json = Json::parse(set.text);
+  } catch (const Json::parse_error& problem) {
+    const std::string reason = json_reason(problem.what());  // "parse error at line 1, column 2: why"
+    const std::size_t why = reason.find(": ");
+    return error_at(set.place_of(std::max<std::size_t>(problem.byte, 1) - 1), "this is no JSON: {}",
+                    why == std::string::npos ? reason : reason.substr(why + 2));
+  }
+  if (!set.json.is_object() || !set.json.contains("pictures") || !set.json["pictures"].is_string())
+    return error("{}: expected an object with \"pictures\", the folder of the photographs", set.file);
+  if (!set.entries().is_array()) return error("{}: expected a list in \"photographs\"", set.file);
+  return set;
 }
 
-/// The mask of one photograph. Error: it lies elsewhere.
-Status apply_mask(const Json& entry, const fs::path& folder, const fs::path& pictures,
-                  const ByName& photographs) {
-  if (!entry.contains("mask") || !entry["mask"].is_string()) return Done{};
-  const Result<fs::path> mask = mask_file(entry["mask"], folder, pictures);
-  if (!mask) return mask.errors();
-  const auto found = photographs.find(entry["name"].get<std::string>());
-  if (found != photographs.end()) found->second->mask = *mask;
-  return Done{};
+/// Nothing where they are not three numbers above 0; 1 where the entry has none.
+std::optional<glm::dvec3> gain_of(const Json& entry) {
+  glm::dvec3 gain(1.0);
+  if (!entry.contains("gain")) return gain;
+  const Json& values = entry["gain"];
+  if (!values.is_array() || values.size() != 3) return std::nullopt;
+  for (int c = 0; c < 3; ++c) {
+    const Json& value = values[std::size_t(c)];
+    if (!value.is_number() || !(value.get<double>() > 0.0)) return std::nullopt;
+    gain[c] = value.get<double>();
+  }
+  return gain;
+}
+
+/// Empty where the entry has none. Errors: it is no path, or lies elsewhere.
+Result<fs::path> mask_of(const Json& entry, const SetJson& set, const fs::path& folder) {
+  if (!entry.contains("mask")) return fs::path();
+  if (!entry["mask"].is_string())
+    return error_at(set.place_of(entry), "expected the path of a picture in \"mask\"");
+  if (entry["mask"].get_ref<const std::string&>().empty()) return fs::path();
+  return mask_file(entry["mask"], folder, found(set.json["pictures"], folder));
+}
+
+Error no_entry(const Json& entry, const SetJson& set) {
+  return error_at(set.place_of(entry), "expected a name and three gains > 0 in {}",
+                  entry.dump().substr(0, 80));
 }
 
 /// Four rows of four numbers.
@@ -90,49 +139,78 @@ std::optional<glm::dmat4> matrix_of(const Json& rows) {
 
 }  // namespace
 
-Status write_photograph_set(const fs::path& folder, const PhotographSet& set,
-                            const fs::path& picture_folder) {
+Status write_photograph_set(const fs::path& folder, const PhotographSet& set, const fs::path& picture_folder,
+                            const MasksAndGains& of_others) {
   if (Status status = write_colmap_model(folder, colmap_model_of(set), ColmapFormat::binary); !status)
     return status;
   Json json{{"pictures", stored(picture_folder, folder)},
             {"photographs", Json::array()},
             {"world_from_given", rows_of(set.world_from_given)}};
-  for (const Photograph& photograph : set.photographs) {
-    Json entry{{"name", photograph.name},
-               {"gain", {photograph.gain.x, photograph.gain.y, photograph.gain.z}},
-               {"reprojection_error_px", photograph.reprojection_error_px}};
-    if (!photograph.mask.empty()) entry["mask"] = stored(photograph.mask, folder);
-    json["photographs"].push_back(std::move(entry));
-  }
+  const auto add = [&](const std::string& name, const fs::path& mask, glm::dvec3 gain) -> Json& {
+    Json entry{{"name", name}, {"gain", {gain.x, gain.y, gain.z}}};
+    if (!mask.empty()) entry["mask"] = stored(mask, folder);
+    return json["photographs"].emplace_back(std::move(entry));
+  };
+  for (const Photograph& photograph : set.photographs)
+    add(photograph.name, photograph.mask, photograph.gain)["reprojection_error_px"] =
+        photograph.reprojection_error_px;
+  for (const auto& [name, given] : of_others)
+    if (!find(set, name)) add(name, given.mask, given.gain);
   return write_file(folder / file_name, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
+Result<MasksAndGains> read_masks_and_gains(const fs::path& folder) {
+  MasksAndGains given;
+  if (std::error_code code; !fs::exists(folder / file_name, code) && !code) return given;
+  const Result<SetJson> set = read_set_json(folder);
+  if (!set) return set.errors();
+  Errors errors;
+  for (const Json& entry : set->entries()) {
+    const std::optional<std::string> name = SetJson::name_of(entry);
+    const std::optional<glm::dvec3> gain = name ? gain_of(entry) : std::nullopt;
+    if (!gain) {
+      errors.push_back(no_entry(entry, *set));
+      continue;
+    }
+    const Result<fs::path> mask = mask_of(entry, *set, folder);
+    if (!mask) {
+      errors.insert(errors.end(), mask.errors().begin(), mask.errors().end());
+      continue;
+    }
+    if (!mask->empty() || *gain != glm::dvec3(1.0)) given[*name] = {*mask, *gain};
+  }
+  if (!errors.empty()) return errors;
+  return given;
+}
+
 Result<LoadedSet> read_photograph_set(const fs::path& folder) {
-  const std::string file = (folder / file_name).string();
-  const Result<std::string> text = read_file(folder / file_name);
-  if (!text)
+  if (std::error_code code; !fs::is_regular_file(folder / file_name, code))
     return error("{}: is no folder of calibrated photographs; parvis facade calibrate makes one",
                  folder.string());
-  if (Status depth = check_json_depth(*text, file); !depth) return depth.errors();
-  const Json json = Json::parse(*text, nullptr, false);
-  if (!json.is_object() || !json.contains("pictures") || !json["pictures"].is_string())
-    return error("{}: expected an object with \"pictures\", the folder of the photographs", file);
+  const Result<SetJson> set = read_set_json(folder);
+  if (!set) return set.errors();
+  const Json& json = set->json;
   const Result<ColmapModel> model = read_colmap_model(folder);
   if (!model) return model.errors();
   const fs::path pictures = found(json["pictures"], folder);
   LoadedSet loaded = photograph_set_of(*model, pictures);
   ByName photographs;
   for (Photograph& photograph : loaded.set.photographs) photographs.try_emplace(photograph.name, &photograph);
-  const Json entries = json.value("photographs", Json::array());
-  for (const Json& entry : entries)
-    if (!apply_gains(entry, photographs))
-      loaded.problems.push_back(
-          error("{}: expected a name and three gains > 0 in {}", file, entry.dump().substr(0, 80)));
-    else if (Status status = apply_mask(entry, folder, pictures, photographs); !status)
-      return status.errors();
+  for (const Json& entry : set->entries()) {
+    const std::optional<std::string> name = SetJson::name_of(entry);
+    const std::optional<glm::dvec3> gain = name ? gain_of(entry) : std::nullopt;
+    if (!gain) {
+      loaded.problems.push_back(no_entry(entry, *set));
+      continue;
+    }
+    const Result<fs::path> mask = mask_of(entry, *set, folder);
+    if (!mask) return mask.errors();
+    if (const auto known = photographs.find(*name); known != photographs.end())
+      known->second->gain = *gain, known->second->mask = *mask;
+  }
   if (json.contains("world_from_given")) {
     const std::optional<glm::dmat4> matrix = matrix_of(json["world_from_given"]);
-    if (!matrix) return error("{}: expected four rows of four numbers in \"world_from_given\"", file);
+    if (!matrix) return error("{}: expected four rows of four numbers in \"world_from_given\"", set->file);
     loaded.set.world_from_given = *matrix;
   }
   fit_to_files(loaded, pictures);
