@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -69,9 +70,13 @@ struct ShownFacade {
 struct ChosenForEye {
   const LoadedFacade* loaded = nullptr;
   glm::vec3 eye{0.0f};
+  float pixel_angle = 0.0f;
   unsigned residency = 0;  ///< of LoadedFacade, when they were chosen
   ChosenLists lists;
 };
+
+/// Doublings of a pixel's angle from which on photographs are chosen again: their mipmaps' levels change.
+constexpr float largest_zoom_step = 0.1f;
 
 /// Radians per pixel in the middle of a view.
 float pixel_angle_of(const View& view) {
@@ -85,22 +90,47 @@ struct DrawnRange {
   std::size_t facade, first, count;
 };
 
+/// Whether there is something that its photographs do not show, whose shadow may fall on a facade
+/// (light/inserted_shadows.h).
+bool receives_inserted(const scene::Scene& scene) {
+  bool receives = !scene.objects.empty();
+  scene::for_each_traced_kind(scene, [&](const scene::TracedKind& kind, int) {
+    receives = receives || (!kind.is_recorded && kind.count(scene) > 0);
+  });
+  return receives;
+}
+
+struct Programs {
+  render::ViewPrograms solid, cutout;
+  render::ViewPrograms chosen;  ///< of triangles whose photographs were chosen once for all their pixels
+
+  /// `receives`: shadows of what was inserted. A renderer in software would look them up where there are
+  /// none, too, which takes as long as a facade without them.
+  static Result<Programs> create(bool receives) {
+    const auto programs_of = [&](gl::Defines defines) {
+      defines.emplace_back("HAS_BACKS", "");
+      defines.emplace_back("IS_RECORDED", "");
+      if (receives) defines.emplace_back("RECEIVES_INSERTED", "");
+      return render::ViewPrograms::create(
+          {"capture/facades/facade_vertex.glsl", "capture/facades/facade_surface.glsl", std::move(defines)});
+    };
+    Result<render::ViewPrograms> solid = programs_of({}), cutout = programs_of({{"HAS_HOLES", ""}}),
+                                 chosen = programs_of({{"IS_CHOSEN", ""}});
+    for (const auto* one : {&solid, &cutout, &chosen})
+      if (!*one) return one->errors();
+    return Programs{*std::move(solid), *std::move(cutout), *std::move(chosen)};
+  }
+};
+
 class FacadeDrawable final : public render::Drawable {
  public:
   static Result<std::unique_ptr<render::Drawable>> create(const scene::Scene& scene, int first_thing,
                                                           Compared compared, HeldTexels held) {
-    const auto programs_of = [](gl::Defines defines) {
-      defines.emplace_back("HAS_BACKS", "");
-      defines.emplace_back("IS_RECORDED", "");
-      defines.emplace_back("RECEIVES_INSERTED", "");
-      return render::ViewPrograms::create(
-          {"capture/facades/facade_vertex.glsl", "capture/facades/facade_surface.glsl", std::move(defines)});
-    };
-    Result<render::ViewPrograms> solid = programs_of({}), cutout = programs_of({{"HAS_HOLES", ""}});
-    if (!solid) return solid.errors();
-    if (!cutout) return cutout.errors();
+    const bool receives = receives_inserted(scene);
+    Result<Programs> programs = Programs::create(receives);
+    if (!programs) return programs.errors();
     std::unique_ptr<FacadeDrawable> made(
-        new FacadeDrawable(first_thing, compared, held, *std::move(solid), *std::move(cutout)));
+        new FacadeDrawable(first_thing, compared, held, receives, *std::move(programs)));
     if (Status status = made->load(scene); !status) return status.errors();
     made->update(scene);
     return std::unique_ptr<render::Drawable>(std::move(made));
@@ -110,6 +140,9 @@ class FacadeDrawable final : public render::Drawable {
     // A file that cannot be loaded was an error when the scene was read; a full graphics memory shows
     // nothing.
     if (!load(scene)) return;
+    if (const bool receives = receives_inserted(scene); receives != receives_inserted_)
+      if (Result<Programs> programs = Programs::create(receives); programs)
+        programs_ = *std::move(programs), receives_inserted_ = receives;
     const auto& [facades, makers] = scene.data<scene::ItemsOf<PlacedFacade>>();
     const auto& shadows = scene.data<scene::SunShadows>();
     things_.begin_update(facades.size());
@@ -156,29 +189,42 @@ class FacadeDrawable final : public render::Drawable {
   }
 
   void draw(const View& view, Pass pass) override {
-    if (pass == Pass::blend) return;
+    if (pass == Pass::cutout) draw_with(programs_.cutout, view, Drawn::all);
+    if (pass != Pass::opaque) return;
+    draw_with(programs_.chosen, view, Drawn::chosen);
+    draw_with(programs_.solid, view, Drawn::others);
+  }
+
+ private:
+  FacadeDrawable(int first_thing, Compared compared, HeldTexels held, bool receives, Programs programs)
+      : first_thing_(first_thing),
+        compared_(compared),
+        held_(held),
+        receives_inserted_(receives),
+        programs_(std::move(programs)) {}
+
+  /// Which triangles: all, of facades with holes; of the others those whose photographs were chosen once for
+  /// all pixels, or the rest.
+  enum class Drawn : std::uint8_t { all, chosen, others };
+
+  void draw_with(const render::ViewPrograms& programs, const View& view, Drawn drawn) {
     const gl::Program* program = nullptr;
     std::size_t bound = shown_.size();
     for (const DrawnRange& range : list_of(view)) {
       const ShownFacade& facade = shown_[range.facade];
-      if (facade.loaded->has_holes != (pass == Pass::cutout)) continue;
-      if (!program) program = (pass == Pass::cutout ? cutout_ : solid_).use(view);
+      const ChosenLists& lists = chosen_for(range.facade, view)->lists;
+      if (facade.loaded->has_holes != (drawn == Drawn::all)) continue;
+      if (drawn == Drawn::chosen && !lists.has_chosen()) continue;
+      if (!program) program = programs.use(view);
       if (!program) return;
-      if (bound != range.facade)
-        bind(*program, facade, chosen_for(range.facade, view)->lists, first_thing_ + int(range.facade));
+      if (bound != range.facade) bind(*program, facade, lists, first_thing_ + int(range.facade));
       bound = range.facade;
-      facade.loaded->textures.draw(range.first, range.count);
+      if (drawn == Drawn::all || !lists.has_chosen())
+        facade.loaded->textures.draw(range.first, range.count);
+      else
+        lists.draw(range.first, range.count, drawn == Drawn::chosen);
     }
   }
-
- private:
-  FacadeDrawable(int first_thing, Compared compared, HeldTexels held, render::ViewPrograms solid,
-                 render::ViewPrograms cutout)
-      : first_thing_(first_thing),
-        compared_(compared),
-        held_(held),
-        solid_(std::move(solid)),
-        cutout_(std::move(cutout)) {}
 
   /// Facades that are new in the scene; those that left it are given back.
   Status load(const scene::Scene& scene) {
@@ -227,23 +273,31 @@ class FacadeDrawable final : public render::Drawable {
     std::optional<ChosenForEye>& chosen = chosen_for(facade, view);
     const glm::mat4 facade_from_world = glm::inverse(shown.world_from_facade);
     const glm::vec3 eye(facade_from_world * glm::vec4(view.position_in_world, 1.0f));
-    if (chosen && chosen->loaded == shown.loaded && chosen->residency == shown.loaded->residency &&
-        (view.kind == ViewKind::shadow || glm::distance(eye, chosen->eye) <= shown.loaded->chooser.step()))
-      return;
-    if (!chosen || chosen->loaded != shown.loaded)
-      chosen = ChosenForEye{shown.loaded, eye, 0, shown.loaded->textures.chosen_lists()};
-    chosen->eye = eye, chosen->residency = shown.loaded->residency;
+    const float pixel_angle = pixel_angle_of(view);
     const ViewChooser& chooser = shown.loaded->chooser;
-    chosen->lists.set(compared_ == Compared::all
-                          ? chooser.all()
-                          : chooser.choice(eye, pixel_angle_of(view), shown.loaded->textures.resident()));
+    const auto serves = [&](const ChosenForEye& before) {
+      if (before.loaded != shown.loaded || before.residency != shown.loaded->residency) return false;
+      return view.kind == ViewKind::shadow ||
+             (glm::distance(eye, before.eye) <= chooser.step(before.eye) &&
+              std::abs(std::log2(pixel_angle / before.pixel_angle)) <= largest_zoom_step);
+    };
+    if (chosen && serves(*chosen)) return;
+    if (!chosen || chosen->loaded != shown.loaded)
+      chosen = ChosenForEye{shown.loaded, eye, pixel_angle, 0, shown.loaded->textures.chosen_lists()};
+    chosen->eye = eye, chosen->pixel_angle = pixel_angle, chosen->residency = shown.loaded->residency;
+    const FacadeTextures& textures = shown.loaded->textures;
+    chosen->lists.set(
+        compared_ == Compared::all ? chooser.all() : chooser.choice(eye, pixel_angle, textures.resident()),
+        textures.resident_tiles());
   }
 
   static void bind(const gl::Program& program, const ShownFacade& facade, const ChosenLists& lists,
                    int thing) {
     facade.loaded->textures.bind(program, lists);
     program.set("world_from_facade", facade.world_from_facade);
-    program.set("facade_from_world", glm::inverse(facade.world_from_facade));
+    const glm::mat4 facade_from_world = glm::inverse(facade.world_from_facade);
+    program.set("facade_from_world", facade_from_world);
+    program.set("facade_units_log2", std::log2(glm::length(glm::vec3(facade_from_world[0]))));
     program.set("facade_thing", thing);
     program.set("radiance_of_exposed", facade.radiance_of_exposed);
     program.set("kept_of_shadows", facade.kept_in_shadow);
@@ -259,7 +313,8 @@ class FacadeDrawable final : public render::Drawable {
   int first_thing_;
   Compared compared_;
   HeldTexels held_;
-  render::ViewPrograms solid_, cutout_;
+  bool receives_inserted_;
+  Programs programs_;
   Loaded loaded_;
   std::vector<ShownFacade> shown_;
   std::vector<std::array<std::optional<ChosenForEye>, 2>> chosen_;  ///< per facade: main view, others

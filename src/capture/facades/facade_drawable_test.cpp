@@ -93,6 +93,25 @@ TEST_F(FacadeDrawableTest, ItsPictureIsWhatRaysSee) {
   EXPECT_LT(psnr(display(draw()), traced), 25.0) << "the control: half as bright";
 }
 
+TEST_F(FacadeDrawableTest, TrianglesOfOneChoiceAreWhatRaysSee) {
+  const Photos input;
+  const Result<PlaceLayers> made = place_layers(input.photos, fine_street(64));
+  ASSERT_TRUE(made) << to_string(made.errors());
+  placed_.facade = std::make_shared<const PackedFacade>(packed_facade(*made));
+  const ViewChoice choice = ViewChooser(*placed_.facade).choice({0.4f, 0.5f, 0.2f}, 0.01f);
+  EXPECT_GT(std::ranges::count_if(choice.triangles, [](const auto& one) { return one.has_value(); }),
+            std::ptrdiff_t(choice.triangles.size() / 2));
+  place(placed_);
+  const Image8 drawn = display(draw());
+  EXPECT_GT(psnr(drawn, display(trace())), 33.0) << "edges of the near walls are sampled differently";
+  EXPECT_EQ(*picked_.at(width / 2, height / 2), 1u);
+  // The same where other things make it receive their shadows.
+  scene::add(scene_, scene::model_of(scene::box({50, -50, 0}, {51, -49, 1}), scene::matt(glm::vec3(0.5f))));
+  EXPECT_GT(psnr(display(draw()), drawn), 50.0);
+  scene_.data<scene::ItemsOf<PlacedFacade>>().items[0].brightness = 0.5f;
+  EXPECT_LT(psnr(display(draw()), drawn), 25.0) << "the control: half as bright";
+}
+
 TEST_F(FacadeDrawableTest, APhotographsOwnViewpointIsThePhotograph) {
   place(placed_);
   look_from(glm::vec3(views_[1].centre));

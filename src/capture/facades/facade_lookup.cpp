@@ -13,6 +13,16 @@ namespace {
 constexpr std::size_t slot_bytes = 4 * (64 * 64 + 32 * 32 + 16 * 16);
 constexpr std::array<std::size_t, tile_levels> level_begin{0, 4 * 64 * 64, 4 * (64 * 64 + 32 * 32)};
 
+/// Of a point in a triangle's plane: the weights of its second and third corner.
+glm::vec2 barycentric_of(const PackedFacade& facade, std::size_t triangle, glm::dvec3 point) {
+  const glm::vec3* c = facade.corners.data() + 3 * triangle;
+  const glm::dvec3 u(c[1] - c[0]), v(c[2] - c[0]), p = point - glm::dvec3(c[0]);
+  const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v), pu = glm::dot(p, u),
+               pv = glm::dot(p, v), area = uu * vv - uv * uv;
+  if (!(area > 0.0)) return {0.0f, 0.0f};
+  return {float((vv * pu - uv * pv) / area), float((uu * pv - uv * pu) / area)};
+}
+
 }  // namespace
 
 FacadeTexels::FacadeTexels(const PackedFacade& facade)
@@ -51,6 +61,34 @@ glm::vec4 FacadeTexels::at(int slot, glm::vec2 at, float level) const {
   return f <= 0.0f || fine + 1 >= tile_levels ? colour : glm::mix(colour, bilinear(slot, at, fine + 1), f);
 }
 
+TileAlphas::TileAlphas(const PackedFacade& facade) : of_slot_(facade.slot_count(), -1) {
+  constexpr std::size_t texels = std::size_t(tile_side) * tile_side;
+  std::vector<std::size_t> slots;
+  for (const std::uint32_t tile : facade.tiles)
+    if (std::int32_t& place = of_slot_[tile >> 2]; TileKind(tile & 3u) == TileKind::mixed && place < 0)
+      place = std::int32_t(slots.size()), slots.push_back(tile >> 2);
+  alphas_.resize(slots.size() * texels);
+  parallel_for(slots.size(), [&](std::size_t i) {
+    const Image8 picture =
+        picture_of(facade.blocks.data() + slots[i] * blocks_per_slot, tile_side, tile_side);
+    for (std::size_t t = 0; t < texels; ++t) alphas_[i * texels + t] = picture.pixels[4 * t + 3];
+  });
+}
+
+float TileAlphas::at(int slot, glm::vec2 at) const {
+  const std::int32_t place = of_slot_[std::size_t(slot)];
+  if (place < 0) return 1.0f;
+  const std::uint8_t* alphas = alphas_.data() + std::size_t(place) * tile_side * tile_side;
+  const glm::vec2 p = at - 0.5f, low = glm::floor(p), f = p - low;
+  const auto alpha = [&](int x, int y) {
+    return float(alphas[std::clamp(y, 0, tile_side - 1) * tile_side + std::clamp(x, 0, tile_side - 1)]);
+  };
+  const int x = int(low.x), y = int(low.y);
+  return glm::mix(glm::mix(alpha(x, y), alpha(x + 1, y), f.x),
+                  glm::mix(alpha(x, y + 1), alpha(x + 1, y + 1), f.x), f.y) /
+         255.0f;
+}
+
 FacadeLookup::FacadePhoto FacadeLookup::facade_photo(int photo) const {
   const PhotoRow row = photo_row(facade_.photos[std::size_t(photo)], first_depths_[std::size_t(photo)]);
   return {row[0], row[1], row[2], row[3], row[4], row[5], row[6]};
@@ -64,7 +102,8 @@ glm::uvec4 FacadeLookup::facade_tile(int tile) const {
   return {entry & 3u, entry >> 2, 0u, 0u};
 }
 glm::vec4 FacadeLookup::facade_texel(int slot, glm::vec2 at, float level) const {
-  return texels_ ? texels_->at(slot, at, level) : glm::vec4(1.0f);
+  if (texels_) return texels_->at(slot, at, level);
+  return {1.0f, 1.0f, 1.0f, alphas_ ? alphas_->at(slot, at) : 1.0f};
 }
 
 float FacadeLookup::facade_depth(int index) const {
@@ -79,6 +118,24 @@ glm::vec4 FacadeLookup::colour(std::uint32_t triangle, glm::vec3 position, glm::
                              255.0f;
   const glm::uvec2 list = facade_.lists[triangle];
   return facade_colour(position, to_eye, pixel_m, int(list.x), int(list.y), fallback);
+}
+
+glm::vec3 FacadeLookup::colour(const ChosenTriangle& chosen, float pixel_m, glm::vec2 barycentric) {
+  const glm::vec2 levels = std::log2(std::max(pixel_m, 1e-6f)) - chosen.pixel_sizes;
+  const auto& c = chosen.corners;
+  const auto between = [&](auto member) {
+    return c[0].*member * (1.0f - barycentric.x - barycentric.y) + c[1].*member * barycentric.x +
+           c[2].*member * barycentric.y;
+  };
+  const auto stored = [&](glm::vec2 at, int tile, int across, float level) {
+    if (tile < 0) return glm::vec3(0.0f);
+    return facade_stored(at, across > 0 ? tile : int(facade_.tiles[std::size_t(tile)] >> 2), across, level);
+  };
+  const glm::vec4 at = between(&ChosenCorner::at);
+  const glm::ivec4 tiles = chosen.tiles;
+  return between(&ChosenCorner::of_first) * stored(glm::vec2(at.x, at.y), tiles.x, tiles.y, levels.x) +
+         between(&ChosenCorner::of_second) * stored(glm::vec2(at.z, at.w), tiles.z, tiles.w, levels.y) +
+         between(&ChosenCorner::rest);
 }
 
 LayerModel model_of(const PackedFacade& facade) {
@@ -101,7 +158,7 @@ ImageF view_of_facade(const PackedFacade& facade, const FacadeTexels& texels, co
 }
 
 ImageF view_of_facade(const PackedFacade& facade, const FacadeTexels& texels, const View& view,
-                      const ItemBuffer& seen) {
+                      const ItemBuffer& seen, std::span<const std::optional<ChosenTriangle>> chosen) {
   ImageF picture(view.width, view.height, 4);
   parallel_for(std::size_t(view.height), [&](std::size_t row) {
     FacadeLookup lookup(facade, &texels);
@@ -111,6 +168,13 @@ ImageF view_of_facade(const PackedFacade& facade, const FacadeTexels& texels, co
       if (triangle == no_triangle_seen) continue;
       const double depth = seen.depths[seen.index(x, y)];
       const glm::dvec3 point = view.to_world({x + 0.5, y + 0.5}, depth);
+      if (!chosen.empty() && chosen[triangle]) {
+        const glm::vec3 colour =
+            lookup.colour(*chosen[triangle], float(depth / view.fx), barycentric_of(facade, triangle, point));
+        for (int c = 0; c < 3; ++c) picture.at(x, y)[c] = colour[c];
+        picture.at(x, y)[3] = 1.0f;
+        continue;
+      }
       const glm::vec4 colour =
           lookup.colour(triangle, glm::vec3(point), glm::vec3(glm::normalize(view.centre - point)),
                         float(depth / view.fx), glm::vec2(1.0f / 3.0f));

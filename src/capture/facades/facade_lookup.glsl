@@ -108,6 +108,23 @@ GLSL_FUNCTION vec4 facade_colour_of(FacadeOpinion opinion) {
   return vec4(mix(balanced, own, opinion.own), opinion.kind == int(TILE_ALPHA) ? texel.w : 1.0f);
 }
 
+// Shares of the colour: of the two best photographs, as they are balanced, and of the fallback; their sum is
+// 1. `best` says something; what a photograph says that says nothing has no share. `third_key` is that of the
+// next photograph, which takes over when the choice changes.
+GLSL_FUNCTION vec3 facade_shares(FacadeOpinion best, FacadeOpinion second, float third_key) {
+  // Where even the best are about to end nothing takes over but the fallback.
+  float known = max(best.confidence, second.confidence);
+  known = clamp(known / (best.key >= 100.0f ? FILLED_CONFIDENCE : 1.0f) / FADING_CONFIDENCE, 0.0f, 1.0f);
+  if (second.key >= 1e9f) return vec3(known, 0.0f, 1.0f - known);
+  // What is filled takes over from nothing seen.
+  bool has_third = third_key < 1e9f && (third_key < 100.0f || best.key >= 100.0f);
+  float max_penalty = has_third ? (third_key >= 100.0f ? third_key - 100.0f : third_key) : MAX_PENALTY;
+  float of_best = best.confidence * max(blend_weight(best.penalty, max_penalty), 1e-6f);
+  float of_second = second.confidence * max(blend_weight(second.penalty, max_penalty), 1e-6f);
+  float share = of_second / (of_best + of_second);
+  return vec3(known * (1.0f - share), known * share, 1.0f - known);
+}
+
 // sRGB and alpha of a point. `count` candidates from `first` on hold its triangle; `pixel_m` is what a pixel
 // of the display covers there (0: not known); `to_eye` is of unit length; `fallback`, sRGB, stands where no
 // photograph says anything. All in the facade's frame.
@@ -130,18 +147,27 @@ GLSL_FUNCTION vec4 facade_colour(vec3 position, vec3 to_eye, float pixel_m, int 
     }
   }
   if (best.key >= 1e9f) return vec4(fallback, 1.0f);
+  vec3 shares = facade_shares(best, second, third_key);
   vec4 colour = facade_colour_of(best);
-  // Where even the best are about to end nothing takes over but the fallback.
-  float known = max(best.confidence, second.confidence);
-  known = clamp(known / (best.key >= 100.0f ? FILLED_CONFIDENCE : 1.0f) / FADING_CONFIDENCE, 0.0f, 1.0f);
-  if (second.key >= 1e9f) return vec4(mix(fallback, vec3(colour), known), colour.w);
-  // Of the next photograph, which takes over when the choice changes; what is filled takes over from nothing
-  // seen.
-  bool has_third = third_key < 1e9f && (third_key < 100.0f || best.key >= 100.0f);
-  float max_penalty = has_third ? (third_key >= 100.0f ? third_key - 100.0f : third_key) : MAX_PENALTY;
-  float of_best = best.confidence * max(blend_weight(best.penalty, max_penalty), 1e-6f);
-  float of_second = second.confidence * max(blend_weight(second.penalty, max_penalty), 1e-6f);
-  float share = of_second / (of_best + of_second);
+  float share = shares.y / (shares.x + shares.y);
   if (share >= 0.004f) colour = mix(colour, facade_colour_of(second), share);
-  return vec4(mix(fallback, vec3(colour), known), colour.w);
+  return vec4(mix(vec3(colour), fallback, shares.z), colour.w);
+}
+
+// The colour, sRGB, that one photograph has stored at `at`. `tiles_across` 0: `at` are texels of the slot
+// `first`; else pixels of a layer's box of so many tiles in a row, of which `first` is the first. `level` of
+// the mipmaps: how much larger a pixel of the display is than one of the photograph, log2.
+GLSL_FUNCTION vec3 facade_stored(vec2 at, int first, int tiles_across, float level) {
+  int slot = first;
+  vec2 in_slot = at;
+  for (int i = 0; i < min(tiles_across, 1); ++i) {  // renderers in software skip loops, and no branches
+    vec2 cell = floor(at / TILE_INNER);
+    slot = int(facade_tile(first + int(cell.y) * tiles_across + int(cell.x)).y);
+    in_slot = at - TILE_INNER * cell + vec2(TILE_BORDER);
+  }
+  float stored_level = clamp(level, 0.0f, float(TILE_LEVELS - 1));
+  // Filters stay within the slot, see facade_opinion.
+  float reach = stored_level > 1.0f ? 2.0f : (stored_level > 0.0f ? 1.0f : 0.5f);
+  in_slot = clamp(in_slot, vec2(reach), vec2(TILE_INNER + 2.0f * TILE_BORDER - reach));
+  return vec3(facade_texel(slot, in_slot, stored_level));
 }

@@ -1,5 +1,4 @@
 // Of a captured facade: light that photographs have recorded (IS_RECORDED).
-#include "graphics/shading/srgb.glsl"
 #include "graphics/shading/tone_curve.glsl"
 #include "graphics/shading/view_blend.glsl"
 #include "graphics/shading/recorded_light.glsl"
@@ -13,10 +12,20 @@ uniform mat4 facade_from_world;
 uniform float radiance_of_exposed;  // radiance that the display shows as exposed 1
 uniform float kept_of_shadows;      // share of its light that is left in shadow; 1: it receives none
 
+#ifdef RECEIVES_INSERTED
+flat in float lit_luminance;  // of the surface in the sun, exposed; 0: not known
+#endif
+// IS_CHOSEN: photographs and their weights are chosen for the triangle (chosen_triangle.h).
+#ifdef IS_CHOSEN
+in vec4 at_of_chosen, of_first, of_second;  // ChosenCorner; w: pixel_sizes of ChosenTriangle
+in vec3 rest_of_chosen;
+uniform float facade_units_log2;  // of the facade's frame in a metre, log2
+flat in ivec4 stored_of_chosen;   // as ChosenTriangle::tiles, with slots in place of tiles; z < 0: no second
+#else
 in vec3 position_in_facade;
 in vec3 fallback_colour;
-flat in float lit_luminance;  // of the surface in the sun, exposed; 0: not known
 flat in uvec2 candidates;
+#endif
 
 FacadePhoto facade_photo(int photo) {
   return FacadePhoto(
@@ -41,13 +50,34 @@ vec4 facade_texel(int slot, vec2 at, float level) {
 }
 #include "capture/facades/facade_lookup.glsl"
 
-Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
+#ifdef IS_CHOSEN
+vec4 shown_colour(SeenPoint seen) {
+  ivec4 stored = stored_of_chosen;
+  vec3 colour = rest_of_chosen;
+  vec3 right = dFdx(position), up = dFdy(position);
+  float pixel_size = 0.5f * log2(max(min(dot(right, right), dot(up, up)), 1e-12f)) + facade_units_log2;
+  // Loops of one round: renderers in software skip those without, and no branches.
+  for (int i = 0; i < min(stored.x + 1, 1); ++i)
+    colour += of_first.rgb * facade_stored(at_of_chosen.xy, stored.x, stored.y, pixel_size - of_first.w);
+  for (int i = 0; i < min(stored.z + 1, 1); ++i)
+    colour += of_second.rgb * facade_stored(at_of_chosen.zw, stored.z, stored.w, pixel_size - of_second.w);
+  return vec4(colour, 1.0f);
+}
+#else
+vec4 shown_colour(SeenPoint seen) {
   float pixel_m = min(length(dFdx(position_in_facade)), length(dFdy(position_in_facade)));
   vec3 to_eye = normalize((facade_from_world * vec4(seen.to_viewer, 0.0f)).xyz);
-  vec4 colour = facade_colour(position_in_facade, to_eye, pixel_m, int(candidates.x), int(candidates.y),
-                              fallback_colour);
+  return facade_colour(position_in_facade, to_eye, pixel_m, int(candidates.x), int(candidates.y),
+                       fallback_colour);
+}
+#endif
+
+Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
+  vec4 colour = shown_colour(seen);
   alpha = colour.a;
-  vec3 exposed = tone_unmapped(linear_of_srgb(colour.rgb));
+  vec3 exposed = srgb_tone_unmapped(clamp(colour.rgb, vec3(0.0f), vec3(1.0f)));
+#ifdef RECEIVES_INSERTED
   kept_in_shadow = kept_in_shadow_of(kept_of_shadows, lit_luminance, exposed);
+#endif
   return shining_surface(seen.normal, radiance_of_exposed * exposed);
 }

@@ -1,6 +1,7 @@
 #include "capture/facades/facade_textures.h"
 
 #include <algorithm>
+#include <glm/gtc/packing.hpp>
 
 #include "base/checked.h"
 #include "base/memory_budget.h"
@@ -29,7 +30,17 @@ gl::Buffer corners_of(const PackedFacade& facade) {
   return gl::immutable_buffer(std::span<const Corner>(corners));
 }
 
-gl::VertexArray vertices_of(const gl::Buffer& corners, const gl::Buffer& lists) {
+/// ChosenCorner as the vertex shader reads it.
+struct ChosenVertex {
+  glm::vec4 at;
+  glm::u16vec4 of_first, of_second, rest;  ///< half floats; w: of the first two the photographs' pixel_sizes
+  glm::ivec4 stored;                       ///< see facade_surface.glsl
+};
+
+glm::u16vec4 halves(glm::vec3 colour, float w) { return glm::packHalf(glm::vec4(colour, w)); }
+
+gl::VertexArray vertices_of(const gl::Buffer& corners, const gl::Buffer& lists, const gl::Buffer& chosen,
+                            const gl::Buffer& elements) {
   gl::VertexArray array = gl::VertexArray::create();
   const GLuint name = array.name();
   glVertexArrayVertexBuffer(name, 0, corners.name(), 0, sizeof(Corner));
@@ -43,6 +54,18 @@ gl::VertexArray vertices_of(const gl::Buffer& corners, const gl::Buffer& lists) 
   glVertexArrayAttribFormat(name, 2, 3, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Corner, fallback));
   glVertexArrayAttribFormat(name, 4, 1, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(Corner, fallback) + 3);
   glVertexArrayAttribIFormat(name, 3, 2, GL_UNSIGNED_INT, 0);
+  constexpr GLuint first_chosen = 5, end_chosen = 10, chosen_binding = 2;
+  glVertexArrayVertexBuffer(name, chosen_binding, chosen.name(), 0, sizeof(ChosenVertex));
+  glVertexArrayElementBuffer(name, elements.name());
+  for (GLuint attribute = first_chosen; attribute < end_chosen; ++attribute) {
+    glEnableVertexArrayAttrib(name, attribute);
+    glVertexArrayAttribBinding(name, attribute, chosen_binding);
+  }
+  glVertexArrayAttribFormat(name, 5, 4, GL_FLOAT, GL_FALSE, offsetof(ChosenVertex, at));
+  glVertexArrayAttribFormat(name, 6, 4, GL_HALF_FLOAT, GL_FALSE, offsetof(ChosenVertex, of_first));
+  glVertexArrayAttribFormat(name, 7, 4, GL_HALF_FLOAT, GL_FALSE, offsetof(ChosenVertex, of_second));
+  glVertexArrayAttribFormat(name, 8, 4, GL_HALF_FLOAT, GL_FALSE, offsetof(ChosenVertex, rest));
+  glVertexArrayAttribIFormat(name, 9, 4, GL_INT, offsetof(ChosenVertex, stored));
   return array;
 }
 
@@ -270,7 +293,8 @@ ChosenLists FacadeTextures::chosen_lists() const {
   glNamedBufferStorage(made.lists_.name(),
                        GLsizeiptr(std::max<std::size_t>(3 * triangles_, 1) * sizeof(glm::uvec2)), nullptr,
                        GL_DYNAMIC_STORAGE_BIT);
-  made.vertices_ = vertices_of(corners_, made.lists_);
+  made.corners_ = gl::Buffer::create(), made.elements_ = gl::Buffer::create();
+  made.vertices_ = vertices_of(corners_, made.lists_, made.corners_, made.elements_);
   // The facade's own list fills whole rows, so that what is chosen begins a new one.
   made.first_chosen_ = std::size_t(rows_of(candidates_.size())) * list_width;
   made.candidates_ = empty_list_texture(made.first_chosen_ + max_chosen * triangles_, GL_R32UI);
@@ -282,7 +306,8 @@ ChosenLists FacadeTextures::chosen_lists() const {
   return made;
 }
 
-void ChosenLists::set(const ViewChoice& choice) {
+void ChosenLists::set(const ViewChoice& choice, std::span<const std::uint32_t> tiles) {
+  set_triangles(choice, tiles);
   std::vector<glm::uvec2> corners;
   corners.reserve(3 * choice.lists.size());
   for (glm::uvec2 list : choice.lists) {
@@ -295,6 +320,47 @@ void ChosenLists::set(const ViewChoice& choice) {
   padded.resize(std::size_t(rows_of(padded.size())) * list_width, 0);
   glTextureSubImage2D(candidates_.name(), 0, 0, int(first_chosen_ / list_width), list_width,
                       rows_of(choice.candidates.size()), GL_RED_INTEGER, GL_UNSIGNED_INT, padded.data());
+}
+
+void ChosenLists::set_triangles(const ViewChoice& choice, std::span<const std::uint32_t> tiles) {
+  chosen_ = compared_ = {};
+  if (choice.triangles.empty()) return;
+  std::vector<ChosenVertex> vertices(3 * choice.triangles.size());
+  // A tile's place, or a layer's tiles, of which the shader asks.
+  const auto stored = [&](int tile, int across) {
+    return tile < 0 || across > 0 ? tile : int(tiles[std::size_t(tile)] >> 2);
+  };
+  for (std::size_t t = 0; t < choice.triangles.size(); ++t) {
+    const std::optional<ChosenTriangle>& one = choice.triangles[t];
+    (one ? chosen_ : compared_).triangles.push_back(std::uint32_t(t));
+    if (!one) continue;
+    const glm::ivec4 places{stored(one->tiles.x, one->tiles.y), one->tiles.y,
+                            stored(one->tiles.z, one->tiles.w), one->tiles.w};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const ChosenCorner& corner = one->corners[k];
+      vertices[3 * t + k] = {corner.at, halves(corner.of_first, one->pixel_sizes.x),
+                             halves(corner.of_second, one->pixel_sizes.y), halves(corner.rest, 0.0f), places};
+    }
+  }
+  compared_.first_element = 3 * chosen_.triangles.size();
+  std::vector<std::uint32_t> elements;
+  for (const Part* part : {&chosen_, &compared_})
+    for (const std::uint32_t triangle : part->triangles)
+      for (std::uint32_t k = 0; k < 3; ++k) elements.push_back(3 * triangle + k);
+  glNamedBufferData(corners_.name(), GLsizeiptr(vertices.size() * sizeof(ChosenVertex)), vertices.data(),
+                    GL_DYNAMIC_DRAW);
+  glNamedBufferData(elements_.name(), GLsizeiptr(elements.size() * sizeof(std::uint32_t)), elements.data(),
+                    GL_DYNAMIC_DRAW);
+}
+
+void ChosenLists::draw(std::size_t first_triangle, std::size_t triangles, bool are_chosen) const {
+  const std::vector<std::uint32_t>& own = part(are_chosen).triangles;
+  const auto first = std::ranges::lower_bound(own, first_triangle),
+             last = std::ranges::lower_bound(own, first_triangle + triangles);
+  const std::size_t begin = part(are_chosen).first_element + 3 * std::size_t(first - own.begin());
+  if (first != last)
+    glDrawElements(GL_TRIANGLES, GLsizei(3 * (last - first)), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(begin * sizeof(std::uint32_t)));
 }
 
 void FacadeTextures::bind(const gl::Program& program, const ChosenLists& lists) const {

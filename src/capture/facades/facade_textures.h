@@ -24,11 +24,25 @@ enum class HeldTexels : std::uint8_t {
 /// FacadeTextures that it was made of.
 class ChosenLists {
  public:
-  /// Takes a choice over.
-  void set(const ViewChoice& choice);
+  /// Takes a choice over. `tiles`: where each tile of the facade is, as FacadeTextures has it.
+  void set(const ViewChoice& choice, std::span<const std::uint32_t> tiles);
+  /// Whether any triangle's photographs were chosen once for all its pixels.
+  bool has_chosen() const { return !chosen_.triangles.empty(); }
+  /// Draws, of a run of triangles, those that were chosen for once (`are_chosen`), or the others, with what
+  /// is bound.
+  void draw(std::size_t first_triangle, std::size_t triangles, bool are_chosen) const;
 
  private:
   friend class FacadeTextures;
+  void set_triangles(const ViewChoice& choice, std::span<const std::uint32_t> tiles);
+  /// Triangles in their order, and where their corners begin in `elements_`.
+  struct Part {
+    std::vector<std::uint32_t> triangles;
+    std::size_t first_element = 0;
+  };
+  const Part& part(bool are_chosen) const { return are_chosen ? chosen_ : compared_; }
+  gl::Buffer corners_, elements_;  ///< ChosenCorner per corner; corners of the chosen triangles, the others'
+  Part chosen_, compared_;
   gl::Buffer lists_;  ///< per corner
   gl::VertexArray vertices_;
   gl::Texture candidates_;
@@ -47,6 +61,8 @@ class FacadeTextures {
                                        std::uint64_t max_texture_bytes = PlacedFacade().max_texture_bytes);
   /// Makes the photographs nearest to `eyes` (in the facade's frame) resident. True where that changed any.
   bool follow(std::span<const glm::vec3> eyes);
+  /// PackedFacade::tiles with the slots that hold them now; 0 where none does.
+  std::span<const std::uint32_t> resident_tiles() const { return resident_tiles_; }
   /// Per photograph: 1 where its tiles are in graphics memory.
   const std::vector<char>& resident() const { return residency_.resident(); }
   /// Of the tiles, as OpenGL has allocated it.
@@ -78,7 +94,7 @@ class FacadeTextures {
   std::vector<std::vector<std::uint32_t>> slots_of_photo_;   ///< of the facade, ascending
   std::vector<std::vector<std::uint32_t>> strips_of_photo_;  ///< that hold them; none: not resident
   std::vector<std::uint32_t> free_strips_;
-  std::vector<std::uint32_t> resident_tiles_;  ///< PackedFacade::tiles with the slots that hold them now
+  std::vector<std::uint32_t> resident_tiles_;
 };
 
 }  // namespace parvis::facades

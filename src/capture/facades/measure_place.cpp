@@ -49,7 +49,7 @@ class DrawnFacade {
     const ViewChoice choice = chooser_.choice(glm::vec3(view.centre), float(1.0 / view.fx));
     drawn_.lists = choice.lists, drawn_.candidates = facade_.candidates;
     drawn_.candidates.insert(drawn_.candidates.end(), choice.candidates.begin(), choice.candidates.end());
-    return view_of_facade(drawn_, texels_, view, seen);
+    return view_of_facade(drawn_, texels_, view, seen, choice.triangles);
   }
   /// The same with other lists.
   ImageF view_of(const std::vector<glm::uvec2>& lists, const View& view, const ItemBuffer& seen) {

@@ -28,6 +28,27 @@ inline std::vector<NamedMesh> street() {
           wall("post", 3, 1.5f, 1.8f, -2, 2)};
 }
 
+/// The street with its walls divided into small squares, so many in each direction.
+inline std::vector<NamedMesh> fine_street(int cells) {
+  std::vector<NamedMesh> fine;
+  for (const NamedMesh& coarse : street()) {
+    NamedMesh named{coarse.name, {}};
+    const glm::vec3 *c = coarse.mesh.positions.data(), u = (c[1] - c[0]) / float(cells),
+                    v = (c[3] - c[0]) / float(cells);
+    for (int y = 0; y < cells; ++y)
+      for (int x = 0; x < cells; ++x) {
+        const auto first = std::uint32_t(named.mesh.positions.size());
+        for (const glm::ivec2 at : {glm::ivec2(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+          named.mesh.positions.push_back(c[0] + float(x + at.x) * u + float(y + at.y) * v);
+          named.mesh.normals.push_back(coarse.mesh.normals[0]), named.mesh.uvs.push_back(glm::vec2(0.0f));
+        }
+        for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) named.mesh.indices.push_back(first + k);
+      }
+    fine.push_back(std::move(named));
+  }
+  return fine;
+}
+
 /// What a view sees of a model whose points have these linear colours, as a PNG file of an exposure.
 inline photographs::Photograph photograph_of(const std::vector<NamedMesh>& meshes,
                                              const std::function<glm::vec3(glm::dvec3)>& colour,

@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "capture/facades/facade_lookup.h"
 #include "capture/facades/packed_facade.h"
 
 namespace parvis::facades {
@@ -19,6 +21,9 @@ struct ViewChoice {
   std::vector<glm::uvec2> lists;  ///< per triangle: first and number, counted over the facade's candidates
                                   ///< and, after them, these:
   std::vector<std::uint32_t> candidates;  ///< layers
+  /// Per triangle, where its photographs and weights are chosen once for all its pixels. None at all: every
+  /// pixel compares photographs.
+  std::vector<std::optional<ChosenTriangle>> triangles;
 };
 
 /// Chooses for one facade, which must outlive it.
@@ -32,12 +37,15 @@ class ViewChooser {
   /// `resident`: per photograph, 0 where its tiles are not at hand, so that it is not chosen; empty: all are.
   ViewChoice choice(glm::vec3 eye, float pixel_angle, std::span<const char> resident = {}) const;
   /// All photographs that hold each triangle.
-  ViewChoice all() const { return {facade_.lists, {}}; }
-  /// How far the eye may move until photographs have to be chosen again.
-  float step() const { return step_; }
+  ViewChoice all() const { return {facade_.lists, {}, {}}; }
+  /// How far the eye may move until photographs have to be chosen again: less beside a photograph's own
+  /// viewpoint, where its weight changes fast.
+  float step(glm::vec3 eye) const;
 
  private:
   const PackedFacade& facade_;
+  TileAlphas alphas_;
+  bool has_holes_ = false;
   float step_ = 0.0f;
 };
 

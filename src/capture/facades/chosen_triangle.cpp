@@ -1,0 +1,153 @@
+#include "capture/facades/chosen_triangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parvis::facades {
+namespace {
+
+// Angle under which a triangle is seen, radians.
+constexpr float largest_angle = 0.05f;     ///< above it weights do not change evenly
+constexpr float one_choice_angle = 0.01f;  ///< below it the centre's choice holds at the corners, too
+constexpr float largest_bend_px = 0.02f;   ///< of a straight line, looked up evenly between its ends
+
+using Corners = std::span<const glm::vec3, 3>;
+
+/// What is drawn of one layer: places in its box, pixels, and the tiles that hold them.
+struct StoredCorners {
+  std::array<glm::vec2, 3> at{};
+  int first = 0, across = 0;  ///< see ChosenTriangle::tiles
+};
+
+/// Where a point appears in a layer's box; nothing behind the camera.
+std::optional<glm::vec2> in_box(const PackedFacade& facade, const PackedLayer& layer, glm::vec3 position) {
+  const View& view = facade.photos[layer.photo].view;
+  const glm::dvec3 p = view.to_camera(glm::dvec3(position));
+  if (!(p.z > 0.0)) return std::nullopt;
+  return glm::vec2(view.to_pixel(p) - glm::dvec2(layer.box.x, layer.box.y));
+}
+
+/// Nothing where a corner lies beside the layer, or a tile is not stored, or has an artist's alpha.
+std::optional<StoredCorners> stored_corners(const PackedFacade& facade, const PackedLayer& layer, Corners c) {
+  StoredCorners stored;
+  const glm::ivec2 tiles(layer.across(), layer.down());
+  glm::ivec2 low(tiles), high(0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::optional<glm::vec2> at = in_box(facade, layer, c[k]),
+                                   bent = in_box(facade, layer, 0.5f * (c[k] + c[(k + 1) % 3]));
+    if (!at || !bent || at->x < 0.0f || at->y < 0.0f) return std::nullopt;
+    stored.at[k] = *at;
+    const glm::ivec2 cell(*at / float(tile_inner));
+    if (cell.x >= tiles.x || cell.y >= tiles.y) return std::nullopt;
+    low = glm::min(low, cell), high = glm::max(high, cell);
+    const std::optional<glm::vec2> next = in_box(facade, layer, c[(k + 1) % 3]);
+    if (!next || glm::distance(0.5f * (*at + *next), *bent) > largest_bend_px) return std::nullopt;
+  }
+  for (int y = low.y; y <= high.y; ++y)
+    for (int x = low.x; x <= high.x; ++x) {
+      const auto kind = TileKind(facade.tiles[layer.first_tile + std::size_t(y * tiles.x + x)] & 3u);
+      if (kind != TileKind::seen && kind != TileKind::mixed) return std::nullopt;
+    }
+  stored.first = int(layer.first_tile), stored.across = tiles.x;
+  if (low != high) return stored;
+  stored.first += low.y * tiles.x + low.x, stored.across = 0;
+  for (glm::vec2& at : stored.at) at += float(tile_border) - float(tile_inner) * glm::vec2(low);
+  return stored;
+}
+
+/// Of a photograph's pixels at a point before it, log2 of world units.
+float pixel_size_log2(const View& view, glm::vec3 point) {
+  return float(std::log2(std::max(view.to_camera(glm::dvec3(point)).z / view.fx, 1e-6)));
+}
+
+/// Of a photograph's colours to be shown, by its opinion: its own at its own viewpoint.
+struct ShownBalance {
+  glm::vec3 scale, offset;
+};
+ShownBalance shown_balance(const PackedPhoto& photo, float own) {
+  const auto& [scale, offset] = photo.balance;
+  return {glm::mix(glm::vec3(scale[0], scale[1], scale[2]), glm::vec3(1.0f), own),
+          glm::mix(glm::vec3(offset[0], offset[1], offset[2]), glm::vec3(0.0f), own)};
+}
+
+glm::vec3 fallback_of(const PackedFacade& facade, std::size_t corner) {
+  return glm::vec3(facade.fallback[corner]) / 255.0f;
+}
+
+/// The triangle in its fallback colours alone.
+ChosenTriangle bare_triangle(const PackedFacade& facade, std::size_t triangle) {
+  ChosenTriangle bare;
+  for (std::size_t k = 0; k < 3; ++k) bare.corners[k].rest = fallback_of(facade, 3 * triangle + k);
+  return bare;
+}
+
+/// What up to three layers say of a point. Not said: that of layers that are not given.
+using Opinions = std::array<FacadeLookup::Opinion, 3>;
+
+Opinions opinions_at(FacadeLookup& lookup, const ChosenEye& eye, std::span<const std::uint32_t> layers,
+                     glm::vec3 point) {
+  Opinions opinions;
+  const glm::vec3 off = eye.position - point;
+  const float distance = std::max(glm::length(off), 1e-6f);
+  for (std::size_t i = 0; i < 3; ++i)
+    opinions[i] = i < layers.size()
+                      ? lookup.opinion(layers[i], point, off / distance, eye.pixel_angle * distance)
+                      : FacadeLookup::no_opinion_at_all();
+  return opinions;
+}
+
+/// 0: seen, 1: filled, 2: nothing is said.
+int kind_of(const FacadeLookup::Opinion& opinion) {
+  if (opinion.key >= FacadeLookup::no_opinion) return 2;
+  return opinion.key < 100.0f ? 0 : 1;
+}
+
+}  // namespace
+
+std::optional<ChosenTriangle> chosen_triangle(const PackedFacade& facade, FacadeLookup& lookup,
+                                              std::size_t triangle, const ChosenEye& eye,
+                                              std::span<const std::uint32_t> layers) {
+  const Corners corners(facade.corners.data() + 3 * triangle, 3);
+  const glm::vec3 centre = (corners[0] + corners[1] + corners[2]) / 3.0f;
+  float radius = 0.0f;
+  for (const glm::vec3& corner : corners) radius = std::max(radius, glm::distance(corner, centre));
+  const float angle = radius / std::max(glm::distance(centre, eye.position), 1e-6f);
+  if (angle > largest_angle) return std::nullopt;
+  if (layers.empty()) return bare_triangle(facade, triangle);
+  const std::size_t shown = std::min<std::size_t>(layers.size(), 2);
+  std::array<StoredCorners, 2> stored;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::optional<StoredCorners> one = stored_corners(facade, facade.layers[layers[i]], corners);
+    if (!one) return std::nullopt;
+    stored[i] = *one;
+  }
+  const Opinions in_middle = opinions_at(lookup, eye, layers, centre);
+  ChosenTriangle chosen;
+  for (std::size_t i = 0; i < shown; ++i)
+    chosen.pixel_sizes[int(i)] = pixel_size_log2(facade.photos[facade.layers[layers[i]].photo].view, centre);
+  chosen.tiles = {stored[0].first, stored[0].across, shown > 1 ? stored[1].first : -1, stored[1].across};
+  for (std::size_t k = 0; k < 3; ++k) {
+    Opinions here = opinions_at(lookup, eye, layers, corners[k]);
+    for (std::size_t i = 0; i < shown; ++i)
+      if (kind_of(here[i]) != kind_of(in_middle[i])) return std::nullopt;
+    const bool is_swapped = here[1].key < here[0].key;
+    if (std::min(here[0].key, here[1].key) >= FacadeLookup::no_opinion) here = in_middle;
+    if (angle > one_choice_angle && here[2].key < std::max(here[0].key, here[1].key)) return std::nullopt;
+    const auto &best = here[is_swapped ? 1 : 0], &second = here[is_swapped ? 0 : 1];
+    const glm::vec3 shares = lookup.shares(best, second, here[2].key);
+    const float of_first = is_swapped ? shares.y : shares.x, of_second = is_swapped ? shares.x : shares.y;
+    ChosenCorner& corner = chosen.corners[k];
+    corner.at = {stored[0].at[k], stored[1].at[k]};
+    corner.rest = shares.z * fallback_of(facade, 3 * triangle + k);
+    const auto add = [&](std::size_t i, float share, glm::vec3& factor) {
+      if (i >= shown) return;
+      const PackedPhoto& photo = facade.photos[facade.layers[layers[i]].photo];
+      const ShownBalance balance = shown_balance(photo, here[i].own);
+      factor = share * balance.scale, corner.rest += share * balance.offset;
+    };
+    add(0, of_first, corner.of_first), add(1, of_second, corner.of_second);
+  }
+  return chosen;
+}
+
+}  // namespace parvis::facades
