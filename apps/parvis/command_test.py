@@ -211,14 +211,15 @@ class Usage(InAFolder):
         self.assertEqual(shown.returncode, 0)
         self.assertRegex(shown.stdout, r"^parvis \d+\.\d+\.\d+\n$")
 
-    def test_a_data_folder_that_does_not_exist_is_named(self):
+    def test_a_data_folder_that_does_not_exist_is_named_with_those_beside_it(self):
         with tempfile.TemporaryDirectory() as folder:
             scene = pathlib.Path(folder, "a.xp")
             scene.write_text("sun()\n")
+            pathlib.Path(folder, "towns").mkdir()
             for command in ("check", "render"):
-                said = run(command, scene, "--data", "/none/such", *(SIZE if command == "render" else []),
-                           *(["-o", pathlib.Path(folder, "a.png")] if command == "render" else []))
-                self.assertIn("/none/such: there is no such folder", said.stderr)
+                said = run(command, scene, "--data", pathlib.Path(folder, "town"),
+                           *([*SIZE, "-o", pathlib.Path(folder, "a.png")] if command == "render" else []))
+                self.assertIn('has no folder "town"; did you mean "towns"?', said.stderr)
 
     def test_bad_usage_is_status_2(self):
         for arguments in [
@@ -1108,6 +1109,23 @@ class Trees(InAFolder):
         self.assertEqual(run("tree", "export", model, "-o", again).returncode, 0)
         self.assertLess(again.stat().st_size, 0.6 * tree.stat().st_size)
 
+    def test_a_tree_holds_its_trunk(self):
+        capture, volume = self.photograph(8), self.folder / "a.volume"
+        quick = ["--level", "3", "--coarse-epochs", "1", "--fine-epochs", "0"]
+        self.assertEqual(run("tree", "reconstruct", capture, "-o", volume, *quick).returncode, 0)
+        plain, whole = self.folder / "plain.tree", self.folder / "whole.tree"
+        self.assertEqual(run("tree", "texture", capture, volume, "-o", plain, "--parents", "0").returncode, 0)
+        done = run("tree", "texture", capture, volume, "-o", whole, "--parents", "0", "--trunk")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        triangles = {}
+        for name, tree in [("plain", plain), ("whole", whole)]:
+            model = self.folder / f"{name}.glb"
+            self.assertEqual(run("tree", "export", tree, "-o", model).returncode, 0)
+            content = model.read_bytes()
+            size = int.from_bytes(content[12:16], "little")
+            triangles[name] = sum(len(mesh["primitives"]) for mesh in json.loads(content[20 : 20 + size])["meshes"])
+        self.assertEqual(triangles["whole"], triangles["plain"] + 1, "the trunk is a part of the model")
+
     def test_two_photographs_are_too_few(self):
         capture = self.photograph(2)
         self.expect_failure("tree", "reconstruct", capture, "-o", self.folder / "a.volume", words=["2 photographs", "3"])
@@ -1121,11 +1139,18 @@ class Trees(InAFolder):
                 lines[i] = " ".join([*words[:5], str(float(words[5]) + 1.5), str(float(words[6]) + 0.7), *words[7:]])
         (capture / "images.txt").write_text("\n".join(lines) + "\n")
         output, quick = self.folder / "a.volume", ["--level", "2", "--coarse-epochs", "1", "--fine-epochs", "0"]
-        self.expect_failure("tree", "reconstruct", capture, "-o", output, *quick, words=[wrong, "--leave-out-inconsistent"])
-        done = run("tree", "reconstruct", capture, "-o", output, *quick, "--leave-out-inconsistent")
+        done = run("tree", "reconstruct", capture, "-o", output, *quick)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn(wrong, done.stdout)
+        self.assertIn(f"{wrong}: its silhouette contradicts all other photographs", done.stdout)
         self.assertIn("19 photographs", done.stdout)
+        tree = self.folder / "a.tree"
+        done = run("tree", "texture", capture, output, "-o", tree, "--parents", "0")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"{wrong}: its silhouette contradicts all other photographs", done.stdout)
+        kept = self.folder / "kept.tree"
+        done = run("tree", "texture", capture, output, "-o", kept, "--parents", "0", "--keep-inconsistent")
+        self.assertIn("used all the same", done.stdout)
+        self.assertLess(tree.stat().st_size, kept.stat().st_size, "textures of one photograph less")
 
     @unittest.skipUnless(shutil.which("mpirun"), "there is no mpirun here: package openmpi-bin")
     def test_two_processes_reconstruct_the_tree_of_one(self):

@@ -14,9 +14,11 @@
 #include "capture/trees/block_table.h"
 #include "capture/trees/capture_folder.h"
 #include "capture/trees/checkpoint.h"
+#include "capture/trees/consistent_views.h"
 #include "capture/trees/judge.h"
 #include "capture/trees/matte_folder.h"
 #include "capture/trees/measure.h"
+#include "capture/trees/organs.h"
 #include "capture/trees/processes.h"
 #include "capture/trees/reconstruction.h"
 #include "capture/trees/sample_trees.h"
@@ -60,6 +62,7 @@ struct ReconstructArguments {
 struct TextureArguments {
   std::filesystem::path capture, volume, output;
   trees::TextureOptions options;
+  bool keeps_inconsistent = false, has_trunk = false;
 };
 
 struct FileArguments {
@@ -160,13 +163,23 @@ std::string light_row(const trees::CapturedLight& light) {
 }
 
 Status texture(const TextureArguments& arguments) {
-  const Result<std::vector<trees::TreeView>> views = trees::read_capture(arguments.capture);
+  Result<std::vector<trees::TreeView>> views = trees::read_capture(arguments.capture);
   if (!views) return views.errors();
-  const Result<trees::TreeVolume> volume = trees::read_volume(arguments.volume);
+  for (const std::string& note : trees::leave_out_inconsistent(*views, arguments.keeps_inconsistent))
+    fmt::print("{}\n", note);
+  Result<trees::TreeVolume> volume = trees::read_volume(arguments.volume);
   if (!volume) return volume.errors();
+  std::optional<trees::TrunkShape> trunk;
+  if (arguments.has_trunk) {
+    const trees::Organs organs = trees::organs_of(*volume);
+    Result<trees::TrunkShape> found = trees::trunk_shape(organs.trunk, *views);
+    if (!found) return found.errors();
+    trunk = *std::move(found), *volume = trees::without(*volume, organs, trees::Organ::trunk);
+  }
   const trees::Checkpoint checkpoint = checkpoint_of(arguments.output);
-  const Result<trees::BillboardTree> tree = trees::textured(*volume, *views, arguments.options, checkpoint);
+  Result<trees::BillboardTree> tree = trees::textured(*volume, *views, arguments.options, checkpoint);
   if (!tree) return tree.errors();
+  tree->trunk = std::move(trunk);
   const Result<std::size_t> bytes = trees::write_tree(arguments.output, *tree);
   if (!bytes) return bytes.errors();
   checkpoint.remove();
@@ -329,8 +342,8 @@ void add_reconstruct(CLI::App& tree, Chosen& chosen) {
                    "Transparency above which a cell is empty (default: by held-out error)")
       ->check(CLI::Range(0.0f, 1.0f));
   command->add_flag("--octree", arguments->is_octree, "Divide 2x2x2 in place of 3x3x3");
-  command->add_flag("--leave-out-inconsistent", arguments->options.leaves_out_inconsistent,
-                    "Leave out a photograph whose silhouette contradicts all others");
+  command->add_flag("--keep-inconsistent", arguments->options.keeps_inconsistent,
+                    "Use a photograph whose silhouette contradicts all others, which is left out else");
   command->footer(
       "Interrupted, it goes on when the same command is given again.\n"
       "Example: parvis tree reconstruct out/oak -o out/oak.volume");
@@ -358,6 +371,10 @@ void add_texture(CLI::App& tree, Chosen& chosen) {
                    "Levels by which billboards are coarser than the volume")
       ->capture_default_str()
       ->check(CLI::Range(0, 4));
+  command->add_flag("--trunk", arguments->has_trunk,
+                    "The trunk as geometry within the tree, in place of its billboards");
+  command->add_flag("--keep-inconsistent", arguments->keeps_inconsistent,
+                    "Use a photograph whose silhouette contradicts all others, which is left out else");
   command->footer(
       "Interrupted, it goes on when the same command is given again.\n"
       "Example: parvis tree texture out/oak out/oak.volume -o out/oak.tree");

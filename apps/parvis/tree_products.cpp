@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "capture/trees/capture_folder.h"
+#include "capture/trees/consistent_views.h"
 #include "capture/trees/figures.h"
 #include "capture/trees/new_individual.h"
 #include "capture/trees/organs.h"
@@ -35,11 +36,12 @@ Status organs(const OrgansArguments& arguments) {
   if (!arguments.trunk.empty()) {
     if (arguments.capture.empty())
       return error("--trunk: the bark is taken from photographs: name the capture with --capture");
-    const Result<std::vector<trees::TreeView>> views = trees::read_capture(arguments.capture);
+    Result<std::vector<trees::TreeView>> views = trees::read_capture(arguments.capture);
     if (!views) return views.errors();
-    const Result<scene::Model> model = trees::trunk_model(found.trunk, *views);
-    if (!model) return model.errors();
-    if (Status status = scene::write_gltf(arguments.trunk, *model); !status) return status;
+    for (const std::string& note : trees::leave_out_inconsistent(*views, false)) fmt::print("{}\n", note);
+    const Result<trees::TrunkShape> trunk = trees::trunk_shape(found.trunk, *views);
+    if (!trunk) return trunk.errors();
+    if (Status status = scene::write_gltf(arguments.trunk, trees::model_of(*trunk)); !status) return status;
   }
   if (arguments.rest.empty()) return Done{};
   const Result<std::size_t> bytes =
@@ -80,8 +82,9 @@ struct FiguresArguments {
 };
 
 Status figures(const FiguresArguments& arguments) {
-  const Result<std::vector<trees::TreeView>> views = trees::read_capture(arguments.capture);
+  Result<std::vector<trees::TreeView>> views = trees::read_capture(arguments.capture);
   if (!views) return views.errors();
+  for (const std::string& note : trees::leave_out_inconsistent(*views, false)) fmt::print("{}\n", note);
   const Result<std::vector<trees::TreeView>> held_out = trees::read_capture(arguments.capture / "held_out");
   if (!held_out) return held_out.errors();
   const Result<std::vector<std::string>> lines =

@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "capture/trees/billboard_math.h"
 #include "capture/trees/tree_volume.h"
+#include "capture/trees/trunk_shape.h"
 
 namespace parvis::trees {
 
@@ -40,6 +42,7 @@ struct BillboardTree {
   int texels_per_side = 4;        ///< M of the thesis
   CapturedLight light;
   std::vector<BillboardTextures> views;
+  std::optional<TrunkShape> trunk = std::nullopt;  ///< as geometry: the cells leave it out
 };
 
 /// A billboard in a picture: where its pixels lie on it.

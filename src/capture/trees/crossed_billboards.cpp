@@ -148,6 +148,14 @@ scene::Model crossed_model(const BillboardTree& tree) {
     part.mesh.indices = {0, 1, 3, 0, 3, 2};
     model.parts.push_back(std::move(part));
   }
+  if (tree.trunk) {
+    scene::Model trunk = model_of(*tree.trunk);
+    const int texture = int(model.textures.size()), material = int(model.materials.size());
+    trunk.materials.front().base_colour_texture = texture, trunk.parts.front().material = material;
+    model.textures.push_back(std::move(trunk.textures.front()));
+    model.materials.push_back(std::move(trunk.materials.front()));
+    model.parts.push_back(std::move(trunk.parts.front()));
+  }
   return model;
 }
 

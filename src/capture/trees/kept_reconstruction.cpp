@@ -10,7 +10,7 @@
 namespace parvis::trees {
 namespace {
 
-constexpr int method_version = 1;  // to be raised whenever the same photographs and options give other cells
+constexpr int method_version = 2;  // to be raised whenever the same photographs and options give other cells
 
 void add(ContentHash& hash, const TreeView& view) {
   hash.add_text(view.name), hash.add(view.camera);
@@ -27,7 +27,7 @@ KeptSteps KeptSteps::of(std::span<const TreeView> views, const ReconstructionOpt
   ContentHash hash;
   hash.add(method_version);
   for (const TreeView& view : views) add(hash, view);
-  hash.add(options.leaves_out_inconsistent);
+  hash.add(options.keeps_inconsistent);
   hash.add(options.grid.branching), hash.add(options.grid.level);
   hash.add(options.opacity.method), hash.add(options.opacity.clamps);
   hash.add(options.opacity.picture_factor), hash.add(options.opacity.iterations);

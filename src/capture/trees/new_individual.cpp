@@ -168,6 +168,10 @@ BillboardTree new_individual(const BillboardTree& tree, std::uint64_t seed) {
   result.grid = CellGrid({foot + stretch * (box.min - foot), foot + stretch * (box.max - foot)},
                          grid.branching(), grid.side(), std::move(kept));
   result.texels_per_side = tree.texels_per_side, result.light = tree.light;
+  result.trunk = tree.trunk;
+  if (result.trunk)
+    for (Trunk::Ring& ring : result.trunk->trunk.rings)
+      ring.centre = foot + stretch * (ring.centre - foot), ring.radius_m *= wide;
   const std::vector<float> before = light_of(tree), now = light_of(result);
   std::vector<float> factors;
   for (std::size_t i = 0; i < kept_sources.size(); ++i) {

@@ -22,7 +22,6 @@ constexpr float search_radii = 1.7f;         // round the axis, in radii of the 
 constexpr float min_filled = 0.35f;          // of a disc's area: less is no trunk
 constexpr float max_widening = 1.06f;        // of a ring over the narrowest below
 constexpr int lean_rings = 4;                // that predict where the next one is
-constexpr int ring_sides = 24;
 constexpr int texture_width = 256, texels_per_ring = 8, max_texture_height = 2048;
 constexpr int min_wood_alpha = 250;  // of a pixel that shows no background
 constexpr float min_cosine = 0.2f;   // between the bark's normal and the direction to a camera
@@ -120,16 +119,6 @@ Trunk trunk_of(const TreeVolume& volume, float leaf_threshold) {
   return trunk;
 }
 
-/// The trunk's axis and radius at a height between its first and its last ring.
-Trunk::Ring ring_at(const Trunk& trunk, float z) {
-  const auto above = std::ranges::find_if(trunk.rings, [&](const auto& ring) { return ring.centre.z >= z; });
-  if (above == trunk.rings.begin()) return trunk.rings.front();
-  if (above == trunk.rings.end()) return trunk.rings.back();
-  const Trunk::Ring &b = *above, &a = *std::prev(above);
-  const float share = (z - a.centre.z) / std::max(b.centre.z - a.centre.z, 1e-6f);
-  return {glm::mix(a.centre, b.centre, share), glm::mix(a.radius_m, b.radius_m, share)};
-}
-
 /// What the photographs show of a point of the bark: linear light; alpha 0 where none sees it.
 glm::vec4 bark_at(glm::vec3 point, glm::vec3 normal, std::span<const TreeView> views) {
   glm::vec4 sum(0.0f);
@@ -151,15 +140,13 @@ glm::vec4 bark_at(glm::vec3 point, glm::vec3 normal, std::span<const TreeView> v
   return sum.w > 1e-6f ? glm::vec4(glm::vec3(sum) / sum.w, 1.0f) : glm::vec4(0.0f);
 }
 
-scene::Texture bark_texture(const Trunk& trunk, std::span<const TreeView> views) {
-  scene::Texture texture;
-  texture.name = "bark";
+Image8 bark_texture(const Trunk& trunk, std::span<const TreeView> views) {
   const int height = std::min(max_texture_height, texels_per_ring * int(trunk.rings.size()));
-  texture.image = Image8(texture_width, height, 4, 255);
+  Image8 picture(texture_width, height, 4, 255);
   const float low = trunk.rings.front().centre.z, high = trunk.rings.back().centre.z;
   std::vector<glm::vec4> texels(std::size_t(texture_width) * std::size_t(height));
   parallel_for(std::size_t(height), [&](std::size_t row) {
-    const Trunk::Ring ring = ring_at(trunk, glm::mix(high, low, (float(row) + 0.5f) / float(height)));
+    const Trunk::Ring ring = trunk.ring_at(glm::mix(high, low, (float(row) + 0.5f) / float(height)));
     for (int x = 0; x < texture_width; ++x) {
       const float turn = 6.2831853f * (float(x) + 0.5f) / texture_width;
       const glm::vec3 normal(std::cos(turn), std::sin(turn), 0.0f);
@@ -173,21 +160,12 @@ scene::Texture bark_texture(const Trunk& trunk, std::span<const TreeView> views)
   for (std::size_t i = 0; i < texels.size(); ++i) {
     const glm::vec3 srgb = srgb_from_linear(texels[i].w > 0.0f ? glm::vec3(texels[i]) : unseen);
     for (int c = 0; c < 3; ++c)
-      texture.image.pixels[4 * i + std::size_t(c)] = std::uint8_t(std::lround(255.0f * srgb[c]));
+      picture.pixels[4 * i + std::size_t(c)] = std::uint8_t(std::lround(255.0f * srgb[c]));
   }
-  return texture;
+  return picture;
 }
 
 }  // namespace
-
-bool Trunk::contains(glm::vec3 point) const {
-  if (rings.size() < 2) return false;
-  const float step = (rings.back().centre.z - rings.front().centre.z) / float(rings.size() - 1);
-  // Below the first ring it stands on the ground.
-  if (point.z > rings.back().centre.z + 0.5f * step) return false;
-  const Ring ring = ring_at(*this, point.z);
-  return glm::distance(glm::vec2(point), glm::vec2(ring.centre)) <= ring.radius_m;
-}
 
 float Organs::share(const TreeVolume& volume, Organ organ) const {
   double sum = 0.0, all = 1e-12;
@@ -225,34 +203,9 @@ TreeVolume without(const TreeVolume& volume, const Organs& organs, Organ organ) 
   return result;
 }
 
-Result<scene::Model> trunk_model(const Trunk& trunk, std::span<const TreeView> views) {
+Result<TrunkShape> trunk_shape(const Trunk& trunk, std::span<const TreeView> views) {
   if (trunk.rings.size() < 2) return error("no trunk was found: its crown reaches the ground");
-  scene::Model model;
-  model.name = "trunk";
-  model.textures.push_back(bark_texture(trunk, views));
-  scene::Material bark;
-  bark.name = "bark", bark.base_colour = glm::vec3(1.0f), bark.base_colour_texture = 0, bark.roughness = 0.9f;
-  model.materials.push_back(bark);
-  scene::Part part;
-  part.object = "trunk";
-  Mesh& mesh = part.mesh;
-  const auto count = std::uint32_t(trunk.rings.size());
-  for (std::uint32_t r = 0; r < count; ++r)
-    for (int side = 0; side <= ring_sides; ++side) {
-      const float turn = 6.2831853f * float(side) / ring_sides;
-      const glm::vec3 normal(std::cos(turn), std::sin(turn), 0.0f);
-      mesh.positions.push_back(trunk.rings[r].centre + trunk.rings[r].radius_m * normal);
-      mesh.normals.push_back(normal);
-      mesh.uvs.emplace_back(float(side) / ring_sides, 1.0f - float(r) / float(count - 1));
-    }
-  constexpr auto row = std::uint32_t(ring_sides + 1);
-  for (std::uint32_t r = 0; r + 1 < count; ++r)
-    for (std::uint32_t side = 0; side + 1 < row; ++side) {
-      const std::uint32_t i = r * row + side;
-      mesh.indices.insert(mesh.indices.end(), {i, i + 1, i + row + 1, i, i + row + 1, i + row});
-    }
-  model.parts.push_back(std::move(part));
-  return model;
+  return TrunkShape{trunk, bark_texture(trunk, views)};
 }
 
 }  // namespace parvis::trees

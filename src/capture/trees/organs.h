@@ -10,25 +10,12 @@
 #include <vector>
 
 #include "capture/trees/tree_volume.h"
-#include "scene/data/model.h"
+#include "capture/trees/trunk_shape.h"
 
 namespace parvis::trees {
 
 /// What a cell holds most of.
 enum class Organ : std::uint8_t { trunk, branch, leaf };
-
-/// A trunk as a stack of discs, from the foot upward.
-struct Trunk {
-  /// A horizontal disc of the trunk.
-  struct Ring {
-    glm::vec3 centre{0.0f};  ///< metres
-    float radius_m = 0.0f;
-  };
-  std::vector<Ring> rings;  ///< ascending; empty where no trunk was found
-
-  /// True within the trunk.
-  bool contains(glm::vec3 point) const;
-};
 
 /// The organs of a tree.
 struct Organs {
@@ -46,8 +33,8 @@ Organs organs_of(const TreeVolume& volume);
 /// The cells that are of no such organ.
 TreeVolume without(const TreeVolume& volume, const Organs& organs, Organ organ);
 
-/// The trunk as a mesh with the photographs as its texture: each texel shows what the cameras see that look
-/// at it most directly and see no background there. Errors: there are fewer than two rings.
-Result<scene::Model> trunk_model(const Trunk& trunk, std::span<const TreeView> views);
+/// The trunk with the photographs as its bark: each texel shows what the cameras see that look at it most
+/// directly and see no background there. Errors: there are fewer than two rings.
+Result<TrunkShape> trunk_shape(const Trunk& trunk, std::span<const TreeView> views);
 
 }  // namespace parvis::trees

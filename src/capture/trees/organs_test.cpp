@@ -75,7 +75,7 @@ TEST(Organs, ACrownOnTheGroundHasNoTrunk) {
   for (glm::vec3& colour : volume.colour) colour = green;
   const Organs organs = organs_of(volume);
   EXPECT_TRUE(organs.trunk.rings.empty());
-  EXPECT_FALSE(trunk_model(organs.trunk, {}));
+  EXPECT_FALSE(trunk_shape(organs.trunk, {}));
 }
 
 TEST(Organs, WithoutTheTrunkTheRestIsLeft) {
@@ -98,13 +98,14 @@ TEST(Organs, TheTrunkShowsItsPhotographs) {
       view.picture.pixels[i + 2] = eye.x > 0.8f ? 20 : 220, view.picture.pixels[i + 3] = 255;
     }
   }
-  const Result<scene::Model> model = trunk_model(trunk, views);
-  ASSERT_TRUE(model) << to_string(model.errors());
-  const Image8& bark_picture = model->textures.front().image;
+  const Result<TrunkShape> shape = trunk_shape(trunk, views);
+  ASSERT_TRUE(shape) << to_string(shape.errors());
+  const Image8& bark_picture = shape->bark;
   const int middle = bark_picture.height / 2;
   EXPECT_GT(bark_picture.at(0, middle)[0], 180) << "texture coordinate 0 is in the east";
   EXPECT_GT(bark_picture.at(bark_picture.width / 2, middle)[2], 180);
-  for (const glm::vec3& position : model->parts.front().mesh.positions)
+  const scene::Model model = model_of(*shape);
+  for (const glm::vec3& position : model.parts.front().mesh.positions)
     EXPECT_LE(glm::length(glm::vec2(position)), 0.301f);
 }
 

@@ -2,33 +2,19 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ranges>
 #include <span>
 #include <utility>
 
 #include "base/progress.h"
 #include "base/sealed_file.h"
+#include "capture/trees/consistent_views.h"
 #include "capture/trees/kept_reconstruction.h"
 
 namespace parvis::trees {
 namespace {
 
 constexpr int cutoff_iterations = 5;  // of the estimates that the cutoff is chosen by
-
-/// The views without the one that contradicts all others.
-Result<std::vector<TreeView>> consistent(std::span<const TreeView> views, bool leaves_out,
-                                         std::vector<std::string>& notes) {
-  std::vector<TreeView> result(views.begin(), views.end());
-  const std::vector<std::size_t> wrong = inconsistent_views(views, silhouettes(views));
-  for (const std::size_t i : wrong) {
-    const std::string what =
-        views[i].name +
-        ": its silhouette contradicts all other photographs: the camera or the matte is wrong";
-    if (!leaves_out) return error("{}; mend it, or leave it out with --leave-out-inconsistent", what);
-    notes.push_back(what + "; left out");
-    result.erase(result.begin() + std::ptrdiff_t(i));
-  }
-  return result;
-}
 
 /// What was kept of an earlier call.
 struct Found {
@@ -58,26 +44,38 @@ class Work {
         progress_("reconstructing", passes_to_do()) {}
 
   Result<Reconstruction> run() {
-    const Result<std::vector<TreeView>> views =
-        consistent(all_, options_.leaves_out_inconsistent, result_.notes);
-    if (!views) return views.errors();
-    const std::vector<Silhouette> masks = silhouettes(*views);
-    const Result<Bounds> box = hull_box(*views, masks);
+    std::vector<Silhouette> masks = silhouettes(all_);
+    const std::vector<TreeView> fewer = without_inconsistent(masks);
+    const std::span<const TreeView> views = fewer.empty() ? all_ : std::span<const TreeView>(fewer);
+    const Result<Bounds> box = hull_box(views, masks);
     if (!box) return box.errors();
-    Result<CellGrid> grid = hull_grid(*views, masks, *box, options_.grid);
+    Result<CellGrid> grid = hull_grid(views, masks, *box, options_.grid);
     if (!grid) return grid.errors();
     progress_.advance(all_.size());
     note("hull",
-         fmt::format("hull of {} photographs, {} of {}^3 cells", views->size(), grid->size(), grid->side()));
-    if (Status status = choose_cutoff(*grid, *views); !status) return status.errors();
-    if (Status status = estimate(*grid, *views, masks); !status) return status.errors();
-    if (Status status = fit_colours(*std::move(grid), *views); !status) return status.errors();
+         fmt::format("hull of {} photographs, {} of {}^3 cells", views.size(), grid->size(), grid->side()));
+    if (Status status = choose_cutoff(*grid, views); !status) return status.errors();
+    if (Status status = estimate(*grid, views, masks); !status) return status.errors();
+    if (Status status = fit_colours(*std::move(grid), views); !status) return status.errors();
     if (options_.fine_epochs > 0)
-      if (Status status = fit_finer(*views); !status) return status.errors();
+      if (Status status = fit_finer(views); !status) return status.errors();
     return std::move(result_);
   }
 
  private:
+  /// The photographs without those that contradict all others, and `masks` without theirs; empty where none
+  /// is left out, so that photographs are not held twice.
+  std::vector<TreeView> without_inconsistent(std::vector<Silhouette>& masks) {
+    const std::vector<std::size_t> wrong = inconsistent_views(all_, masks);
+    result_.notes = inconsistency_notes(all_, wrong, options_.keeps_inconsistent);
+    if (wrong.empty() || options_.keeps_inconsistent) return {};
+    std::vector<TreeView> views(all_.begin(), all_.end());
+    for (const std::size_t i : std::views::reverse(wrong)) {
+      views.erase(views.begin() + std::ptrdiff_t(i));
+      masks.erase(masks.begin() + std::ptrdiff_t(i));
+    }
+    return views;
+  }
   FitOptions coarse_fit() const {
     FitOptions fit;
     fit.epochs = options_.coarse_epochs, fit.processes = options_.processes;

@@ -24,7 +24,7 @@ struct ReconstructionOptions {
   float fine_smoothing =
       0.3f;  ///< of that fit (FitOptions::smoothing): by held-out error, docs/experiments/tree-smoothing.md
   Processes processes = {};               ///< that share the work (MPI)
-  bool leaves_out_inconsistent = false;   ///< a photograph that contradicts all others; else it is an error
+  bool keeps_inconsistent = false;        ///< a photograph that contradicts all others; else it is left out
   std::filesystem::path checkpoint = {};  ///< folder for what is done, the caller's to remove; empty: none
   std::chrono::seconds keeping_interval{20};          ///< how much work a kill may cost
   const std::atomic<bool>* is_interrupted = nullptr;  ///< when it turns true, no further step is begun
@@ -46,9 +46,10 @@ struct Reconstruction {
 };
 
 /// Reconstructs a tree. The same photographs and options give the same cells for any number of threads, of
-/// any number of processes, with or without interruption. Errors: what hull_box and hull_grid say; a
-/// photograph whose silhouette contradicts the others, by name; the work was interrupted, or what is done
-/// cannot be kept (what was kept before stays, and the same call goes on from there).
+/// any number of processes, with or without interruption. A photograph whose silhouette contradicts all
+/// others is left out, and the notes name it. Errors: what hull_box and hull_grid say; the work was
+/// interrupted, or what is done cannot be kept (what was kept before stays, and the same call goes on from
+/// there).
 Result<Reconstruction> reconstruct(std::span<const TreeView> views, const ReconstructionOptions& options);
 
 }  // namespace parvis::trees

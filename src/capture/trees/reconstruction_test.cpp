@@ -212,18 +212,32 @@ TEST(Processes, TheFirstOnesBytesComeToAll) {
     EXPECT_TRUE(holds);
 }
 
-TEST(Reconstruction, ThePhotographThatContradictsAllOthersIsNamedOrLeftOut) {
-  std::vector<TreeView> views = photographs();
-  views[4].camera.position_in_world += glm::vec3(0.6f, 0.3f, 0.4f);
+TEST(Reconstruction, ThePhotographThatContradictsAllOthersIsNamedAndLeftOutUnlessItIsKept) {
   ReconstructionOptions options;
   options.grid.level = 2, options.coarse_epochs = 1, options.fine_epochs = 0;
-  const Result<Reconstruction> refused = reconstruct(views, options);
-  ASSERT_FALSE(refused);
-  EXPECT_NE(to_string(refused.errors()).find("view 4"), std::string::npos) << to_string(refused.errors());
-  options.leaves_out_inconsistent = true;
+  std::vector<TreeView> views = photographs();
+  const Result<Reconstruction> of_right_ones = reconstruct(views, options);
+  ASSERT_TRUE(of_right_ones) << to_string(of_right_ones.errors());
+  EXPECT_EQ(of_right_ones->notes.front().find("contradicts"), std::string::npos);
+
+  views[4].camera.position_in_world += glm::vec3(0.6f, 0.3f, 0.4f);
   const Result<Reconstruction> found = reconstruct(views, options);
   ASSERT_TRUE(found) << to_string(found.errors());
-  EXPECT_NE(found->notes.front().find("view 4"), std::string::npos) << found->notes.front();
+  EXPECT_NE(found->notes[0].find("view 4"), std::string::npos) << found->notes[0];
+  EXPECT_NE(found->notes[0].find("left out"), std::string::npos) << found->notes[0];
+  EXPECT_NE(found->notes[1].find("9 photographs"), std::string::npos) << found->notes[1];
+  std::vector<TreeView> nine = photographs();
+  nine.erase(nine.begin() + 4);
+  const Result<Reconstruction> of_nine = reconstruct(nine, options);
+  ASSERT_TRUE(of_nine) << to_string(of_nine.errors());
+  expect_same(*found, *of_nine);
+
+  options.keeps_inconsistent = true;
+  const Result<Reconstruction> kept = reconstruct(views, options);
+  ASSERT_TRUE(kept) << to_string(kept.errors());
+  EXPECT_NE(kept->notes[0].find("view 4"), std::string::npos) << kept->notes[0];
+  EXPECT_NE(kept->notes[1].find("10 photographs"), std::string::npos) << kept->notes[1];
+  EXPECT_LT(kept->volume.grid.size(), found->volume.grid.size()) << "the wrong one carves the hull";
 }
 
 }  // namespace

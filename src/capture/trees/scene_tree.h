@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "capture/trees/tree_levels.h"
 #include "scene/data/room_data.h"
@@ -27,19 +28,31 @@ struct SceneTree {
   /// A tree that sways is a dynamic thing.
   bool sways() const { return sway_m > 0.0f; }
   /// As it leans now.
-  glm::mat4 world_from_leaning_tree() const;
+  glm::mat4 world_from_leaning_tree() const { return world_from_tree * leaning(); }
+  /// The tree's frame leaning, from the tree's frame at rest: a shear about the foot.
+  glm::mat4 leaning() const;
+  /// Its trunk as an object, where the tree has one as geometry.
+  std::optional<scene::Object> trunk_object() const;
   /// Adds all but how it leans now.
   void hash(ContentHash& hash) const {
     hash.add(content), hash.add(world_from_tree), hash.add(is_visible), hash.add(sway_m);
   }
 };
 
-inline glm::mat4 SceneTree::world_from_leaning_tree() const {
-  if (lean_m == glm::vec2(0.0f)) return world_from_tree;
-  const glm::vec2 lean = lean_m / std::max(tree->box.max.z - tree->foot.z, 1e-3f);
+inline glm::mat4 SceneTree::leaning() const {
   glm::mat4 shear(1.0f);
+  if (lean_m == glm::vec2(0.0f)) return shear;
+  const glm::vec2 lean = lean_m / std::max(tree->box.max.z - tree->foot.z, 1e-3f);
   shear[2] = {lean, 1.0f, 0.0f}, shear[3] = {-tree->foot.z * lean, 0.0f, 1.0f};
-  return world_from_tree * shear;
+  return shear;
+}
+
+inline std::optional<scene::Object> SceneTree::trunk_object() const {
+  if (!tree->trunk) return std::nullopt;
+  scene::Object trunk;
+  trunk.name = "trunk", trunk.model = tree->trunk, trunk.world_from_model = world_from_tree;
+  trunk.is_dynamic = sways(), trunk.is_visible = is_visible;
+  return trunk;
 }
 
 using SceneTrees = scene::ItemsOf<SceneTree>;

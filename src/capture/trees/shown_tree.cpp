@@ -79,6 +79,7 @@ Result<ShownTree> ShownTree::create(std::shared_ptr<const TreeLevels> tree, cons
   drawables.furnish(*scene);
   SceneTree placed;
   placed.tree = std::move(tree);
+  if (std::optional<scene::Object> trunk = placed.trunk_object()) scene->objects.push_back(*std::move(trunk));
   scene->data<SceneTrees>().add(std::move(placed), 0);
   return shown(std::move(scene), drawables);
 }

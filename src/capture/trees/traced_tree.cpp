@@ -3,6 +3,7 @@
 // opacity, so that the mean of a pixel's rays is their over.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <mutex>
 #include <unordered_map>
 
@@ -72,6 +73,7 @@ class TreeSurface final : public scene::TracedSurface {
       : tree_(tree.tree),
         sky_(std::move(sky)),
         tree_from_world_(glm::inverse(tree.world_from_leaning_tree())),
+        tree_per_world_(std::cbrt(std::abs(glm::determinant(glm::mat3(tree_from_world_))))),
         to_sun_(to_sun) {}
 
   scene::TracedPoint point(const scene::TracedHit& hit) const override {
@@ -117,12 +119,16 @@ class TreeSurface final : public scene::TracedSurface {
       sum +=
           closest.weights[v] * texture_colour(shown, shown.views[std::size_t(closest.views[v])], cell, place);
     }
-    return sum;
+    const LeafDetail& detail = tree_->detail;
+    if (detail.is_empty()) return sum;
+    return detail.added_to(sum, LeafDetail::offset_of(cell) + place * frame.half_size_m / detail.width_m(),
+                           hit.width_m * tree_per_world_);
   }
 
   std::shared_ptr<const TreeLevels> tree_;
   std::shared_ptr<const MeanSky> sky_;
   glm::mat4 tree_from_world_;
+  float tree_per_world_;  // metres
   glm::vec3 to_sun_;
 };
 

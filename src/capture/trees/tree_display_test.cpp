@@ -105,6 +105,21 @@ class TreeDisplayTest : public gl::ContextTest {
     return difference->flip;
   }
 
+  /// What one picture has more than another, beside the same of two other pictures; green, of 255.
+  struct Comparison {
+    double mean, spread, correlation;
+  };
+  static Comparison compared(const Image8& a, const Image8& without_a, const Image8& b,
+                             const Image8& without_b) {
+    double sum = 0.0, aa = 0.0, bb = 0.0, ab = 0.0, count = 0.0;
+    for (std::size_t i = 1; i < a.pixels.size(); i += std::size_t(a.channels), ++count) {
+      const double of_a = double(a.pixels[i]) - double(without_a.pixels[i]),
+                   of_b = double(b.pixels[i]) - double(without_b.pixels[i]);
+      sum += of_a, aa += of_a * of_a, bb += of_b * of_b, ab += of_a * of_b;
+    }
+    return {sum / count, std::sqrt(aa / count), ab / std::sqrt(aa * bb)};
+  }
+
   scene::Scene scene_;
   Camera camera_;
   render::Drawables drawables_;
@@ -135,11 +150,37 @@ TEST_F(TreeDisplayTest, ItsPictureIsWhatRaysSee) {
   EXPECT_GT(flip(drawn(*renderer()), picture), 2.5 * difference);
 }
 
+TEST_F(TreeDisplayTest, CloserThanItsPhotographsItHasDetailAsRaysSeeIt) {
+  plant({0, 0, 0});
+  camera_.world_from_camera = look_at({0, -4.5f, 2}, {0, 0, 2});
+  camera_.vertical_fov = 0.25f;  // pixels are a tenth as wide as those of the photographs
+  const auto with = renderer();
+  const Image8 picture = drawn(*with), rays = traced(*with, 64);
+  auto plain = std::make_shared<TreeLevels>(*ball_levels());
+  plain->detail = {};
+  scene_.data<SceneTrees>().items[0].tree = plain;
+  const auto without = renderer();
+  const Image8 blurred = drawn(*without), blurred_rays = traced(*without, 64);
+  const Comparison detail = compared(picture, blurred, rays, blurred_rays);
+  EXPECT_GT(detail.spread, 5.0) << "of 255";
+  EXPECT_GT(detail.correlation, 0.5);
+  EXPECT_LT(std::abs(detail.mean), 3.0) << "of 255: it changes nothing in the mean";
+
+  // From where the photographs were taken, and farther away, there is none.
+  camera_.world_from_camera = look_at({0, -36, 2}, {0, 0, 2});
+  camera_.vertical_fov = 0.3f;
+  const Image8 far_without = drawn(*without);
+  scene_.data<SceneTrees>().items[0].tree = ball_levels();
+  EXPECT_EQ(drawn(*with).pixels, far_without.pixels);
+}
+
 TEST_F(TreeDisplayTest, InTheLightOfItsPhotographsItLooksAsInThem) {
   const CapturedLight& light = ball_levels()->levels.front().light;
   const TreeView view = TestVolume(3).view(0.3f, 1.2f, 240);  // of the finest level
+  auto plain = std::make_shared<TreeLevels>(*ball_levels());
+  plain->detail = {};  // the view is closer than the photographs
   const auto error = [&](const scene::Scene& scene) {
-    Result<ShownTree> shown = ShownTree::create(ball_levels(), scene);
+    Result<ShownTree> shown = ShownTree::create(plain, scene);
     EXPECT_TRUE(shown) << to_string(shown.errors());
     const Result<ImageF> picture = shown->picture(view.camera);
     EXPECT_TRUE(picture) << to_string(picture.errors());
@@ -467,6 +508,48 @@ TEST_F(TreeNodeTest, ItsFootStandsWhereTheNodeSays) {
   EXPECT_LT(glm::distance(foot, glm::vec3(5, 2, 1)), 1e-4f);
   EXPECT_NEAR(transformed(trees[0].world_from_tree, trees[0].tree->box).max.z, 9.0f, 0.4f);
   EXPECT_FALSE(trees[1].is_visible);
+}
+
+TEST_F(TreeNodeTest, ItsTrunkIsAnObjectThatStandsAndLeansWithIt) {
+  BillboardTree tree = ball_tree();
+  tree.trunk = TrunkShape{{{{{0.1f, 0, 0.2f}, 0.1f}, {{0.1f, 0, 0.7f}, 0.08f}}}, Image8(8, 8, 4, 120)};
+  ASSERT_TRUE(write_tree(folder_ / "trunk.tree", tree));
+  Result<scene::LoadedScene> loaded =
+      load("tree(file=\"trunk.tree\", position=\"5 2 1\", sway=0.5)\ntree(file=\"trunk.tree\")\n");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  scene::Scene& scene = loaded->scene;
+  ASSERT_EQ(scene.objects.size(), 2u);
+  EXPECT_EQ(scene.objects[0].model, scene.objects[1].model) << "one file, one trunk";
+  EXPECT_TRUE(scene.objects[0].is_dynamic);
+  EXPECT_FALSE(scene.objects[1].is_dynamic);
+  const glm::vec3 foot(scene.objects[0].world_from_model * glm::vec4(0.1f, 0, 0.2f, 1.0f));
+  EXPECT_LT(glm::distance(foot, glm::vec3(5, 2, 1)), 1e-4f) << "the trunk stands at the position";
+
+  action::SharedByProcesses shared;
+  WindProcess wind;
+  wind.begin(scene, shared);
+  for (int i = 0; i < 45; ++i) wind.step(scene);
+  wind.present(scene, 0.0);
+  ASSERT_EQ(scene.objects[0].pose.size(), 1u);
+  EXPECT_TRUE(scene.objects[1].pose.empty());
+  const glm::vec4 top(0.1f, 0, 0.7f, 1.0f);
+  const glm::mat4 leaning = scene_trees(scene)[0].world_from_leaning_tree();
+  EXPECT_LT(glm::length(scene.objects[0].world_from_model * scene.objects[0].pose[0] * top - leaning * top),
+            1e-4f);
+  EXPECT_GT(glm::length(leaning * top - scene.objects[0].world_from_model * top), 0.01f);
+}
+
+TEST_F(TreeDisplayTest, ItsTrunkIsDrawnInTheLightOfTheScene) {
+  BillboardTree tree = ball_tree();
+  tree.light = {{0.0f, -0.8f, 0.6f}, 0.5f, 0.3f};
+  const auto trunk_of = [&](std::uint8_t grey) {
+    tree.trunk = TrunkShape{{{{{0, 0, -0.6f}, 0.2f}, {{0, 0, 0.6f}, 0.2f}}}, Image8(8, 8, 4, grey)};
+    return levels_of(tree).trunk->textures.front().image;
+  };
+  const Image8 bright = trunk_of(120), dark = trunk_of(60);
+  // Texture coordinate 3/4 is in the south, where the sun of the photographs is; 1/4 in the north.
+  EXPECT_LT(bright.at(6, 4)[1] + 20, bright.at(2, 4)[1]) << "as bright in less light: a higher albedo";
+  EXPECT_LT(dark.at(6, 4)[1] + 10, bright.at(6, 4)[1]);
 }
 
 TEST_F(TreeNodeTest, AGltfFileIsATreeAndMaySway) {

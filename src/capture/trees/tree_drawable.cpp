@@ -1,7 +1,8 @@
 // The billboards of a view are put in order on the CPU: trees by distance, the cells of each exactly
 // (cell_order.h). They are visited from front to back, so that those behind opaque crowns are left out
 // (crown_cover.h), and drawn from back to front. Views with colour blend them; shadow maps and picking take
-// each texel by its opacity's chance, so that a crown's shadow has the crown's density.
+// each texel by its opacity's chance, so that a crown's shadow has the crown's density. Trees in front that
+// are seen closer than by their photographs are drawn with detail (leaf_detail.h), by a program of their own.
 //
 // Limit: trees whose boxes overlap are in the order of their middles.
 #include "capture/trees/tree_drawable.h"
@@ -14,6 +15,7 @@
 #include "capture/trees/billboard_math.h"
 #include "capture/trees/cell_order.h"
 #include "capture/trees/crown_cover.h"
+#include "capture/trees/detail_tiles.h"
 #include "capture/trees/level_choice.h"
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/tree_atlas.h"
@@ -29,6 +31,10 @@ namespace {
 
 using render::Culling, render::Pass, render::View, render::ViewKind, render::ViewPrograms;
 
+constexpr GLuint atlas_unit = render::first_drawable_unit, detail_unit = atlas_unit + 1;
+constexpr float min_closer =
+    1.0f;  // times closer than the photographs: below it leaf_detail.glsl adds nothing
+
 // Of several samples in a pixel all are covered, or none: else neighbouring billboards leave a seam where
 // each has some of them.
 constexpr float margin_pixels = 0.75f, min_margin = 0.02f;
@@ -42,11 +48,12 @@ struct DrawnBillboard {
   glm::vec3 half_up;
   glm::vec4 slants;
   glm::vec4 base;
-  glm::uvec3 tiles_and_thing;
-  glm::vec4 extent;  ///< of the quad: what the textures show, with a margin
+  glm::uvec4 tiles_and_thing;  ///< and layer of DetailTiles
+  glm::vec4 extent;            ///< of the quad: what the textures show, with a margin
   glm::vec3 light_in_crown;
   glm::vec4 exit_distances;                 ///< of the quad's corners
   std::array<glm::vec2, 2> texture_scales;  ///< from the billboard to those of the photographs
+  glm::vec4 detail_place;                   ///< in tiles of detail: the middle, and half a billboard
 };
 
 /// A rectangle on a billboard (-1..1).
@@ -77,6 +84,7 @@ glm::vec4 exit_distances(const Bounds& box, glm::vec3 centre, const BillboardFra
 /// What one view shows.
 struct DrawList {
   std::vector<DrawnBillboard> billboards;
+  std::size_t detailed = 0;  ///< how many of them, the last ones, are drawn with detail
   GLintptr offset = 0;
   bool is_layered = false;  ///< blended by themselves, tree_layer.h
 };
@@ -94,13 +102,16 @@ class TreeDrawable final : public render::Drawable {
     const std::string vertex = "capture/trees/tree_vertex.glsl", surface = "capture/trees/tree_surface.glsl";
     Result<ViewPrograms> blended = ViewPrograms::create({vertex, surface, {{"IS_RECORDED", ""}}});
     if (!blended) return blended.errors();
+    Result<ViewPrograms> detailed =
+        ViewPrograms::create({vertex, surface, {{"IS_RECORDED", ""}, {"HAS_DETAIL", ""}}});
+    if (!detailed) return detailed.errors();
     Result<ViewPrograms> by_chance =
         ViewPrograms::create({vertex, surface, {{"IS_RECORDED", ""}, {"HAS_HOLES", ""}}});
     if (!by_chance) return by_chance.errors();
     Result<TreeLayer> layer = TreeLayer::create();
     if (!layer) return layer.errors();
-    std::unique_ptr<TreeDrawable> drawable(
-        new TreeDrawable(first_thing, *std::move(blended), *std::move(by_chance), *std::move(layer)));
+    std::unique_ptr<TreeDrawable> drawable(new TreeDrawable(
+        first_thing, *std::move(blended), *std::move(detailed), *std::move(by_chance), *std::move(layer)));
     if (Status status = drawable->upload(scene); !status) return status.errors();
     drawable->update(scene);
     return std::unique_ptr<render::Drawable>(std::move(drawable));
@@ -156,8 +167,13 @@ class TreeDrawable final : public render::Drawable {
     if (view.kind != ViewKind::main)
       detail.affordable_billboards = 0;  // shadows and reflections do with less
     const std::vector<std::size_t> levels = levels_in_view(in_view, detail);
-    for (std::size_t k = 0; k < seen.size(); ++k)
+    list.detailed = 0;
+    bool is_detailed = is_blended(view);
+    for (std::size_t k = 0; k < seen.size(); ++k) {
       add(seen[k].second, view, in_view[k].seen, levels[k], list.billboards);
+      is_detailed &= is_closer_than_photographs(*in_view[k].tree, in_view[k].seen);
+      if (is_detailed) list.detailed = list.billboards.size();
+    }
     list.is_layered = view.kind == ViewKind::main && detail_.min_visible > 0.0f &&
                       list.billboards.size() > detail_.direct_billboards;
     if (list.is_layered) layer_.prepare(cover_);
@@ -171,23 +187,46 @@ class TreeDrawable final : public render::Drawable {
     const bool blends = is_blended(view);
     if (pass != (blends ? Pass::blend : Pass::cutout) || list.billboards.empty()) return;
     if (list.is_layered) layer_.begin(view);
-    const gl::Program* program = (blends ? blended_ : by_chance_).use(view);
-    if (!program) return;
-    glBindTextureUnit(render::first_drawable_unit, atlas_.texture());
-    program->set("tree_texels", int(render::first_drawable_unit));
-    glVertexArrayVertexBuffer(vertex_array_.name(), 0,
-                              (view.kind == ViewKind::main ? main_stream_ : other_stream_).name(),
-                              list.offset, sizeof(DrawnBillboard));
-    glBindVertexArray(vertex_array_.name());
-    glDisable(GL_CULL_FACE);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(list.billboards.size()));
+    const std::size_t usual = list.billboards.size() - list.detailed;
+    draw_range(blends ? blended_ : by_chance_, view, {0, usual});
+    draw_range(detailed_, view, {usual, list.detailed});
     if (list.is_layered) layer_.end(view);
   }
 
  private:
-  TreeDrawable(int first_thing, ViewPrograms blended, ViewPrograms by_chance, TreeLayer layer)
+  /// Some of a view's billboards, by number.
+  struct Range {
+    std::size_t first, count;
+  };
+  void draw_range(const ViewPrograms& programs, const View& view, Range range) const {
+    const gl::Program* program = range.count > 0 ? programs.use(view) : nullptr;
+    if (!program) return;
+    glBindTextureUnit(atlas_unit, atlas_.texture());
+    program->set("tree_texels", int(atlas_unit));
+    if (program->declares("detail_tiles")) {
+      glBindTextureUnit(detail_unit, detail_tiles_.texture());
+      program->set("detail_tiles", int(detail_unit));
+    }
+    const bool is_main = view.kind == ViewKind::main;
+    glVertexArrayVertexBuffer(
+        vertex_array_.name(), 0, (is_main ? main_stream_ : other_stream_).name(),
+        (is_main ? main_list_ : other_list_).offset + GLintptr(range.first * sizeof(DrawnBillboard)),
+        sizeof(DrawnBillboard));
+    glBindVertexArray(vertex_array_.name());
+    glDisable(GL_CULL_FACE);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(range.count));
+  }
+  /// Does the view show some of the tree's pixels finer than its photographs?
+  bool is_closer_than_photographs(const TreeLevels& tree, const SeenTree& seen) const {
+    return detail_tiles_.layer(&tree) &&
+           seen.pixels_per_metre * tree.detail.photographed_pixel_m > min_closer;
+  }
+
+  TreeDrawable(int first_thing, ViewPrograms blended, ViewPrograms detailed, ViewPrograms by_chance,
+               TreeLayer layer)
       : first_thing_(first_thing),
         blended_(std::move(blended)),
+        detailed_(std::move(detailed)),
         by_chance_(std::move(by_chance)),
         layer_(std::move(layer)),
         main_stream_(1 << 22),
@@ -204,12 +243,13 @@ class TreeDrawable final : public render::Drawable {
     attribute(3, 4, offsetof(DrawnBillboard, slants));
     attribute(4, 4, offsetof(DrawnBillboard, base));
     glEnableVertexArrayAttrib(array, 5);
-    glVertexArrayAttribIFormat(array, 5, 3, GL_UNSIGNED_INT, offsetof(DrawnBillboard, tiles_and_thing));
+    glVertexArrayAttribIFormat(array, 5, 4, GL_UNSIGNED_INT, offsetof(DrawnBillboard, tiles_and_thing));
     glVertexArrayAttribBinding(array, 5, 0);
     attribute(6, 4, offsetof(DrawnBillboard, extent));
     attribute(7, 3, offsetof(DrawnBillboard, light_in_crown));
     attribute(9, 4, offsetof(DrawnBillboard, exit_distances));
     attribute(8, 4, offsetof(DrawnBillboard, texture_scales));
+    attribute(10, 4, offsetof(DrawnBillboard, detail_place));
     glVertexArrayBindingDivisor(array, 0, 1);
   }
 
@@ -224,7 +264,7 @@ class TreeDrawable final : public render::Drawable {
     crowns_ = {};
     Result<TreeAtlas> atlas = TreeAtlas::create(distinct);
     if (!atlas) return atlas.errors();
-    atlas_ = *std::move(atlas);
+    atlas_ = *std::move(atlas), detail_tiles_ = DetailTiles::of(distinct);
     return Done{};
   }
 
@@ -248,6 +288,7 @@ class TreeDrawable final : public render::Drawable {
         0.5f * std::min({cell_size_m.x, cell_size_m.y, cell_size_m.z}) * seen.pixels_per_metre;
     const float margin = std::clamp(margin_pixels / half_cell_pixels, min_margin, 1.0f);
     std::ranges::reverse(cells_);
+    const std::uint32_t* detail_layer = detail_tiles_.layer(placed.tree.get());
     for (const std::uint32_t cell : cells_) {
       const glm::vec3 centre = shown.grid.centre(cell);
       const BillboardFrame frame = billboard_frame(centre, cell_size_m, eye);
@@ -287,6 +328,11 @@ class TreeDrawable final : public render::Drawable {
                  b.texture_scales[stronger]);
       b.tiles_and_thing.z = std::uint32_t(first_thing_) + std::uint32_t(i);
       b.light_in_crown = {albedo_factor[cell], sun[cell], sky[cell]};
+      if (detail_layer) {
+        const LeafDetail& detail = placed.tree->detail;
+        b.tiles_and_thing.w = *detail_layer;
+        b.detail_place = glm::vec4(LeafDetail::offset_of(cell), frame.half_size_m / detail.width_m());
+      }
       b.exit_distances = scale * exit_distances(placed.tree->box, centre, frame, b.extent, to_sun);
     }
   }
@@ -301,10 +347,11 @@ class TreeDrawable final : public render::Drawable {
   int first_thing_;
   TreeDetail detail_;
   CrownCover cover_;
-  ViewPrograms blended_, by_chance_;
+  ViewPrograms blended_, detailed_, by_chance_;
   TreeLayer layer_;
   gl::VertexArray vertex_array_ = gl::VertexArray::create();
   TreeAtlas atlas_;
+  DetailTiles detail_tiles_;
   std::vector<const TreeLevels*> uploaded_;
   std::vector<SceneTree> trees_;    // as of the last update
   render::StaticThings things_;     // those that stand still

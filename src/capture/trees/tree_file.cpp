@@ -135,6 +135,7 @@ Result<Content> content_of(const std::filesystem::path& file, const BillboardTre
     else
       append_values(bytes, blocks[v]);
   }
+  if (tree.trunk) append_trunk(bytes, *tree.trunk);
   return content;
 }
 
@@ -217,6 +218,11 @@ Result<BillboardTree> tree_of(const std::filesystem::path& file, const SealedKin
       return enough.errors();
     put_blocks(view, *blocks, texels);
     tree.views.push_back(std::move(view));
+  }
+  if (!taker.is_at_end()) {  // trees of one kind end here, those with a trunk as geometry go on
+    Result<TrunkShape> trunk = take_trunk(taker);
+    if (!trunk) return wrong(trunk.errors().front().message);
+    tree.trunk = *std::move(trunk);
   }
   if (!taker.is_at_end()) return wrong("bytes follow its end");
   return tree;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "base/files.h"
@@ -110,6 +111,60 @@ TEST(TreeFile, AsGltfItIsAModelForOthersAndTheSameTreeForUs) {
   const Result<BillboardTree> other = read_tree(folder.path() / "other.glb");
   ASSERT_FALSE(other.ok());
   EXPECT_NE(to_string(other.errors()).find("PARVIS_captured_tree"), std::string::npos);
+}
+
+/// The same with a trunk whose bark is brighter upward.
+BillboardTree tree_with_trunk() {
+  BillboardTree tree = random_tree();
+  TrunkShape shape{{{{{0, 0, 0.5f}, 0.1f}, {{0.01f, 0, 0.8f}, 0.09f}, {{0.03f, 0, 1.2f}, 0.07f}}},
+                   Image8(8, 12, 4, 255)};
+  for (int y = 0; y < 12; ++y)
+    for (int x = 0; x < 8; ++x)
+      for (int c = 0; c < 3; ++c) shape.bark.at(x, y)[c] = std::uint8_t(200 - 12 * y);
+  tree.trunk = shape;
+  return tree;
+}
+
+TEST(TreeFile, HoldsTheTrunk) {
+  const TestFolder folder;
+  const BillboardTree tree = tree_with_trunk();
+  for (const char* name : {"a.tree", "a.glb"}) {
+    ASSERT_TRUE(write_tree(folder.path() / name, tree).ok());
+    const Result<BillboardTree> again = read_tree(folder.path() / name);
+    ASSERT_TRUE(again.ok()) << to_string(again.errors());
+    ASSERT_TRUE(again->trunk);
+    ASSERT_EQ(again->trunk->trunk.rings.size(), 3u);
+    EXPECT_EQ(again->trunk->trunk.rings[2].centre, tree.trunk->trunk.rings[2].centre);
+    EXPECT_EQ(again->trunk->trunk.rings[2].radius_m, 0.07f);
+    ASSERT_EQ(again->trunk->bark.pixels.size(), tree.trunk->bark.pixels.size());
+    for (std::size_t i = 0; i < tree.trunk->bark.pixels.size(); ++i)
+      ASSERT_NEAR(int(again->trunk->bark.pixels[i]), int(tree.trunk->bark.pixels[i]), 12);
+  }
+  Errors warnings;
+  const Result<scene::Model> model = scene::read_gltf(folder.path() / "a.glb", warnings);
+  ASSERT_TRUE(model.ok()) << to_string(model.errors());
+  EXPECT_GT(model->triangle_count(), 50u) << "other programs see it, too";
+}
+
+TEST(TreeFile, ADamagedTrunkIsRefused) {
+  const TestFolder folder;
+  const std::filesystem::path file = folder.path() / "a.tree";
+  const auto refusal = [&](auto&& damage) {
+    BillboardTree tree = tree_with_trunk();
+    damage(*tree.trunk);
+    EXPECT_TRUE(write_tree(file, tree).ok());
+    const Result<BillboardTree> read = read_tree(file);
+    return read.ok() ? std::string() : to_string(read.errors());
+  };
+  EXPECT_EQ(refusal([](TrunkShape&) {}), "");
+  EXPECT_NE(refusal([](TrunkShape& shape) { shape.trunk.rings.resize(1); }).find("trunk"), std::string::npos);
+  EXPECT_NE(refusal([](TrunkShape& shape) { shape.trunk.rings[1].radius_m = -1.0f; }).find("trunk"),
+            std::string::npos);
+  EXPECT_NE(refusal([](TrunkShape& shape) { shape.trunk.rings[1].centre.z = 9.0f; }).find("trunk"),
+            std::string::npos)
+      << "rings that are not in order";
+  EXPECT_NE(refusal([](TrunkShape& shape) { shape.trunk.rings[1].centre.x = NAN; }).find("trunk"),
+            std::string::npos);
 }
 
 TEST(TreeFile, ReturnsVolumes) {

@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "capture/trees/billboard_math.h"
 #include "capture/trees/cell_order.h"
+#include "capture/trees/trunk_light.h"
 
 namespace parvis::trees {
 namespace {
@@ -177,10 +178,16 @@ BillboardTree coarser(const BillboardTree& tree) {
 TreeLevels levels_of(BillboardTree tree) {
   TreeLevels result;
   result.box = tree.grid.box(), result.foot = foot_of(tree);
+  if (tree.trunk) {
+    result.foot = tree.trunk->trunk.rings.front().centre;
+    result.trunk = std::make_shared<const scene::Model>(
+        model_of(TrunkShape{tree.trunk->trunk, bark_albedo(*tree.trunk, tree)}));
+  }
   result.levels.push_back(std::move(tree));
   while (result.levels.back().grid.size() > 1 && result.levels.back().grid.side() > 1)
     result.levels.push_back(coarser(result.levels.back()));
   result.crown = crown_light(result.levels);
+  result.detail = leaf_detail(result.levels.front());
   return result;
 }
 

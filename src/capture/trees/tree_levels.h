@@ -2,20 +2,24 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "base/content_hash.h"
 #include "capture/trees/billboard_tree.h"
 #include "capture/trees/crown_light.h"
+#include "capture/trees/leaf_detail.h"
 
 namespace parvis::trees {
 
 /// A tree as scenes show it. All levels are in the frame of the photographs' cameras.
 struct TreeLevels {
-  std::vector<BillboardTree> levels;  ///< the finest first; each is coarser by the grid's branching
-  Bounds box;                         ///< of the grid, metres
-  glm::vec3 foot{0.0f};               ///< where the trunk stands on the ground
-  CrownLight crown;                   ///< of the levels
+  std::vector<BillboardTree> levels;          ///< the finest first; each is coarser by the grid's branching
+  Bounds box;                                 ///< of the grid, metres
+  glm::vec3 foot{0.0f};                       ///< where the trunk stands on the ground
+  CrownLight crown;                           ///< of the levels
+  std::shared_ptr<const scene::Model> trunk;  ///< lit by scenes; null: the cells show the trunk
+  LeafDetail detail;                          ///< of what is closer than the photographs
 };
 
 /// The tree with each cell's parts drawn into one billboard, as each photograph sees them: with texels of the

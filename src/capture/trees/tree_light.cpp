@@ -34,19 +34,11 @@ std::vector<float> extinctions(const BillboardTree& tree) {
 }
 
 /// What reaches each cell along a direction, from its middle on: its own leaves are what is lit.
-std::vector<float> passed(const BillboardTree& tree, const std::vector<float>& extinction_per_m,
-                          glm::vec3 direction) {
+std::vector<float> passed(const BillboardTree& tree, const CrownShade& shade, glm::vec3 direction) {
   std::vector<float> result(tree.grid.size());
   parallel_for(
       tree.grid.size(),
-      [&](std::size_t cell) {
-        float depth = 0.0f;
-        tree.grid.walk({tree.grid.centre(cell), direction}, [&](std::size_t other, float enter, float leave) {
-          if (other != cell) depth += extinction_per_m[other] * (leave - enter);
-          return depth < 8.0f;
-        });
-        result[cell] = std::exp(-depth);
-      },
+      [&](std::size_t cell) { result[cell] = shade.passed(tree.grid.centre(cell), direction, int(cell)); },
       256);
   return result;
 }
@@ -74,32 +66,49 @@ LightFit fitted(const BillboardTree& tree, const std::vector<float>& brightness,
 
 }  // namespace
 
+CrownShade::CrownShade(const BillboardTree& tree) : grid_(tree.grid), extinction_per_m_(extinctions(tree)) {}
+
+float CrownShade::passed(glm::vec3 point, glm::vec3 direction, int own) const {
+  float depth = 0.0f;
+  grid_.walk({point, direction}, [&](std::size_t cell, float enter, float leave) {
+    if (int(cell) != own) depth += extinction_per_m_[cell] * (leave - enter);
+    return depth < 8.0f;
+  });
+  return std::exp(-depth);
+}
+
+std::vector<glm::vec3> sky_directions() {
+  std::vector<glm::vec3> directions;
+  for (int row = 0; row < sky_rows; ++row)
+    for (int column = 0; column < sky_columns; ++column)
+      directions.push_back(direction_of(2.0f * pi * (float(column) + 0.5f * float(row)) / sky_columns,
+                                        std::asin((float(row) + 0.5f) / sky_rows)));
+  return directions;
+}
+
 std::vector<float> sun_visibility(const BillboardTree& tree, glm::vec3 to_sun) {
-  return passed(tree, extinctions(tree), to_sun);
+  return passed(tree, CrownShade(tree), to_sun);
 }
 
 std::vector<float> sky_visibility(const BillboardTree& tree) {
-  const std::vector<float> extinction_per_m = extinctions(tree);
+  const CrownShade shade(tree);
   std::vector<float> sum(tree.grid.size(), 0.0f);
-  for (int row = 0; row < sky_rows; ++row)
-    for (int column = 0; column < sky_columns; ++column) {
-      const float height = std::asin((float(row) + 0.5f) / sky_rows);
-      const std::vector<float> one =
-          passed(tree, extinction_per_m,
-                 direction_of(2.0f * pi * (float(column) + 0.5f * float(row)) / sky_columns, height));
-      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += one[i] / float(sky_rows * sky_columns);
-    }
+  for (const glm::vec3 direction : sky_directions()) {
+    const std::vector<float> one = passed(tree, shade, direction);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += one[i] / float(sky_rows * sky_columns);
+  }
   return sum;
 }
 
 CapturedLight estimated_light(const BillboardTree& tree, std::optional<glm::vec3> to_sun) {
   std::vector<float> brightness;
   for (const glm::u8vec4 base : tree.base) brightness.push_back(luminance(base));
-  const std::vector<float> sky = sky_visibility(tree), extinction_per_m = extinctions(tree);
+  const std::vector<float> sky = sky_visibility(tree);
+  const CrownShade shade(tree);
   CapturedLight best;
   double minimum = std::numeric_limits<double>::max();
   const auto attempt = [&](glm::vec3 direction) {
-    const LightFit fit = fitted(tree, brightness, passed(tree, extinction_per_m, direction), sky);
+    const LightFit fit = fitted(tree, brightness, passed(tree, shade, direction), sky);
     if (fit.residual < minimum) minimum = fit.residual, best = {direction, fit.sun, fit.sky};
   };
   if (to_sun) {

@@ -16,6 +16,22 @@ namespace parvis::trees {
 /// of a tree is given, for no photograph says how bright its light was.
 inline constexpr float mean_albedo = 0.12f;
 
+/// What the cells of a tree let through.
+class CrownShade {
+ public:
+  /// The tree must outlive it.
+  explicit CrownShade(const BillboardTree& tree);
+  /// The share of light that reaches a point from a direction (unit), 0..1. `own`: a cell that stops none.
+  float passed(glm::vec3 point, glm::vec3 direction, int own = no_cell) const;
+
+ private:
+  const CellGrid& grid_;
+  std::vector<float> extinction_per_m_;
+};
+
+/// Directions of the sky, each of which stands for the same solid angle.
+std::vector<glm::vec3> sky_directions();
+
 /// The share of the sun's light that reaches each cell from a direction (unit), 0..1: what the cells between
 /// let through.
 std::vector<float> sun_visibility(const BillboardTree& tree, glm::vec3 to_sun);

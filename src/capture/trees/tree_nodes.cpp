@@ -76,6 +76,7 @@ const TreeShelf::Read* tree_of(const Node& node, SceneBuilder& builder) {
   ContentHash hash;
   for (const BillboardTextures& view : tree->views) hash.add(view.texels);
   hash.add(tree->grid.cells()), hash.add(tree->base), hash.add(tree->light);
+  if (tree->trunk) hash.add(tree->trunk->trunk.rings), hash.add(tree->trunk->bark.pixels);
   return &shelf
               .emplace(file, TreeShelf::Read{std::make_shared<const TreeLevels>(levels_of(*std::move(tree))),
                                              hash.value()})
@@ -93,6 +94,10 @@ void build_tree(const Node& node, SceneBuilder& builder) {
       glm::scale(builder.world_from_parent() * scene::placement(node), glm::vec3(scale)), -read->tree->foot);
   tree.is_visible = builder.is_visible() && node.flag("visible");
   tree.sway_m = float(node.number("sway"));
+  if (std::optional<scene::Object> trunk = tree.trunk_object()) {
+    if (!node.text("name").empty()) trunk->name = node.text("name");
+    builder.add(*std::move(trunk));
+  }
   builder.add(std::move(tree));
 }
 

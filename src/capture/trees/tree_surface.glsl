@@ -2,6 +2,9 @@
 // (003_d5b01da2d2f805f6, section 4.6), in the light that the billboard's corners have (leaf_light.glsl).
 #include "capture/trees/billboard.glsl"
 #include "capture/trees/foliage.glsl"
+#ifdef HAS_DETAIL
+#include "capture/trees/leaf_detail.glsl"
+#endif
 
 uniform sampler2DArray tree_texels;  // TreeAtlas
 
@@ -10,6 +13,11 @@ flat in vec4 base_of_cell;
 flat in uvec2 tiles;
 flat in vec4 scales;
 flat in vec3 share_level_factor;
+#ifdef HAS_DETAIL
+uniform mediump sampler2DArray detail_tiles;  // DetailTiles
+flat in vec4 place_in_detail;                 // of the billboard's middle in tiles; tiles per half billboard
+flat in float detail_layer;
+#endif
 #if !defined(WRITES_DEPTH) && !defined(WRITES_OBJECT)
 in vec3 highlight_of_leaves;
 in vec3 radiance_per_albedo;
@@ -26,10 +34,23 @@ vec4 tile_colour(uint tile, vec2 scale) {
 }
 
 Surface surface_at(SeenPoint seen, inout float sun, out float alpha) {
+#ifdef HAS_DETAIL
+  // Before anything is discarded, for the neighbours that say how large a pixel is.
+  vec2 place = place_in_detail.xy + place_in_detail.zw * uv;
+  vec2 detail = texture(detail_tiles, vec3(place, detail_layer)).xy;
+  vec2 second = texture(detail_tiles, vec3(detail_octave * place + second_detail_offset, detail_layer)).xy;
+  float tiles_per_pixel = max(length(dFdx(place)), length(dFdy(place)));
+  float pixel_in_texels = float(textureSize(detail_tiles, 0).x) * tiles_per_pixel;
+  float closer = detail_texels_per_photographed_pixel / max(pixel_in_texels, 1e-6f);
+#endif
   if (silhouette_reach(uv, slants) > 1.0f) discard;
   vec4 colour = tile_colour(tiles.x, scales.xy);
   float second_share = share_level_factor.x;
   if (second_share > 0.0f) colour = mix(colour, tile_colour(tiles.y, scales.zw), second_share);
+#ifdef HAS_DETAIL
+  colour = with_detail(colour, detail_share(closer) * detail);
+  colour = with_detail(colour, detail_share(closer / detail_octave) * second);
+#endif
   if (colour.a < 1.0f / 510.0f) discard;
   alpha = colour.a;
 #ifdef HAS_HOLES

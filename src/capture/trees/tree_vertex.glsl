@@ -11,17 +11,24 @@ layout(location = 1) in vec4 half_right;        // in the world, metres; w: mip 
 layout(location = 2) in vec3 half_up;
 layout(location = 3) in vec4 billboard_slants;  // of the cell's silhouette, billboard.glsl
 layout(location = 4) in vec4 base_colour_of_cell;
-layout(location = 5) in uvec3 tiles_and_thing;  // textures of the two photographs; number of the thing
+layout(location = 5) in uvec4 tiles_and_thing;  // textures of the two photographs; thing; layer of detail
 layout(location = 6) in vec4 extent;            // of the quad, in half billboards: low and high corner
 layout(location = 7) in vec3 light_in_crown;    // factor from textures to albedo, shares of sun and sky
 layout(location = 9) in vec4 exit_distances;    // of each corner: metres toward the sun to the crown's end
 layout(location = 8) in vec4 texture_scales;    // from the billboard to those of the two photographs
+#ifdef HAS_DETAIL
+layout(location = 10) in vec4 detail_place;  // of the middle in tiles of detail; tiles per half billboard
+#endif
 
 flat out vec4 slants;
 flat out vec4 base_of_cell;  // sRGB and opacity, where a photograph has no texture
 flat out uvec2 tiles;
 flat out vec4 scales;
 flat out vec3 share_level_factor;  // of the second photograph; mip level; factor from textures to albedo
+#ifdef HAS_DETAIL
+flat out vec4 place_in_detail;
+flat out float detail_layer;
+#endif
 #ifdef HAS_LIGHT
 out vec3 highlight_of_leaves;  // LeafLight
 out vec3 radiance_per_albedo;
@@ -38,6 +45,10 @@ void surface_vertex() {
   scales = texture_scales;
   share_level_factor = vec3(billboard_centre.w, half_right.w, light_in_crown.x);
   object_of_surface = int(tiles_and_thing.z);
+#ifdef HAS_DETAIL
+  place_in_detail = detail_place;
+  detail_layer = float(tiles_and_thing.w);
+#endif
 #ifdef HAS_LIGHT
   LeafLight light = light_of_leaves(position, normalize(vertex_normal), light_in_crown.yz,
                                     exit_distances[gl_VertexID], int(tiles_and_thing.z));

@@ -143,8 +143,9 @@ Result<Bounds> hull_box(std::span<const TreeView> views, std::span<const Silhoue
     const std::vector<glm::u16vec3> cells = hull_cells(box, 2, levels, silhouettes);
     if (cells.empty())
       return error(
-          "the photographs' silhouettes have no point in common: a camera or a matte is wrong; "
-          "parvis tree reconstruct --leave-out-inconsistent names it");
+          "the photographs' silhouettes have no point in common: cameras or mattes are wrong, more than one "
+          "of "
+          "them, or one that --keep-inconsistent keeps");
     box = bounds_of(cells, box, side);
   }
   return box;

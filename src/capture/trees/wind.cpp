@@ -30,6 +30,10 @@ void WindProcess::present(scene::Scene& scene, double ahead_s) {
     const glm::vec4 foot = tree.world_from_tree * glm::vec4(tree.tree->foot, 1.0f);
     const glm::vec2 in_world = tree.sway_m * lean_at(time_s, foot.x + 1.7f * foot.y);
     tree.lean_m = glm::vec2(glm::inverse(glm::mat3(tree.world_from_tree)) * glm::vec3(in_world, 0.0f));
+    if (!tree.tree->trunk) continue;
+    for (scene::Object& object : scene.objects)
+      if (object.model == tree.tree->trunk && object.world_from_model == tree.world_from_tree)
+        object.pose = {tree.leaning()};
   }
 }
 
