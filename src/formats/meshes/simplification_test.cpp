@@ -106,7 +106,7 @@ TEST(Simplification, VerticesOfFlatFacesBecomeOneUpToACrease) {
     EXPECT_EQ(roof.positions.size(), is_creased ? 8u : 6u);
     for (std::size_t i = 0; i < roof.positions.size(); ++i)
       if (roof.positions[i].x == 1.0f && !is_creased) {
-        EXPECT_NEAR(roof.normals[i].z, 1.0f, 1e-5f) << "the mean";
+        EXPECT_NEAR(roof.normals[i].z, 1.0f, 1e-3f) << "the mean by triangles; of one square: 0.995";
       }
   }
 }
