@@ -341,7 +341,7 @@ TEST_F(LampNode, WarnsOfNamesThatNothingHas) {
   EXPECT_EQ(warnings("lamp(position=\"0 0 4\")"), "");
   EXPECT_EQ(warnings("group(visible=0) { lamp(of=\"pots *\") }"), "");
   const std::string of = warnings("lamp(of=\"pots *\")");
-  EXPECT_NE(of.find("\"pots *\"; the scene has \"post 1\""), std::string::npos) << of;
+  EXPECT_NE(of.find("\"pots *\"; did you mean \"post 1\"?"), std::string::npos) << of;
   EXPECT_NE(warnings("lamp(shows=\"lit windows\")").find("lit windows"), std::string::npos);
   const std::string part = warnings("lamp(of=\"post *\", part=\"bulb\")");
   EXPECT_NE(part.find("no part of \"post *\" is called \"bulb\""), std::string::npos) << part;
