@@ -164,15 +164,20 @@ std::vector<PictureMask> glass_masks(const Image8& picture, std::span<const Surf
   return masks;
 }
 
-/// A mask of the mean colour of the samples that `takes`; none where they are too few.
+/// A mask of the mean colour of the samples that `takes`; none where they are too few, or where it would hold
+/// much more of the skin than them: then the colour is that of paint.
 template <class Takes>
 void add_lamp(std::span<const SurfaceSample> samples, const Takes& takes, std::vector<PictureMask>& masks) {
-  constexpr float min_m2 = 0.005f, lamp_tolerance = 0.25f;
+  constexpr float min_m2 = 0.005f, lamp_tolerance = 0.25f, max_held = 4.0f;
   glm::vec3 sum(0.0f);
-  float area_m2 = 0.0f;
+  float area_m2 = 0.0f, held_m2 = 0.0f;
   for (const SurfaceSample& sample : samples)
     if (takes(sample)) sum += sample.area_m2 * sample.srgb, area_m2 += sample.area_m2;
-  if (area_m2 >= min_m2) masks.push_back({.colour = sum / area_m2, .tolerance = lamp_tolerance});
+  if (area_m2 < min_m2) return;
+  const PictureMask mask{.colour = sum / area_m2, .tolerance = lamp_tolerance};
+  for (const SurfaceSample& sample : samples)
+    if (sample.is_outer && mask.holds(sample)) held_m2 += sample.area_m2;
+  if (held_m2 <= max_held * area_m2) masks.push_back(mask);
 }
 
 }  // namespace

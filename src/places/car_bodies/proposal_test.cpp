@@ -193,6 +193,22 @@ TEST_F(CarProposal, TheRearOfARedCarIsNoLamp) {
   EXPECT_NEAR(area_of(proposed(body), "lamp"), 0.1, 0.001) << script_;
 }
 
+TEST_F(CarProposal, AColourThatStripesHaveTooIsNoLamp) {
+  scene::Model body = bare_body();
+  for (int y = 0; y < 8; ++y) {
+    std::uint8_t* red = body.textures[0].image.at(7, y);
+    red[0] = 200, red[1] = red[2] = 20;
+  }
+  scene::Part& shell = body.parts[0];
+  const glm::vec2 low(0.9f, 0.1f), high(0.97f, 0.9f);
+  add_quad(shell, {{-2.2f, -0.5f, 0.6f}, {-2.2f, 0.5f, 0.6f}, {-2.2f, 0.5f, 0.7f}, {-2.2f, -0.5f, 0.7f}}, low,
+           high);
+  EXPECT_NEAR(area_of(proposed(body), "lamp"), 0.1, 0.001) << script_;
+  for (const float y : {-half_width - 0.01f, half_width + 0.01f})
+    add_quad(shell, {{-0.8f, y, 0.5f}, {0.8f, y, 0.5f}, {0.8f, y, 0.7f}, {-0.8f, y, 0.7f}}, low, high);
+  EXPECT_EQ(area_of(proposed(body), "lamp"), 0.0) << script_;
+}
+
 TEST_F(CarProposal, ASpareWheelIsNotPainted) {
   scene::Model car = car_with_wheels();
   scene::Part spare;
