@@ -69,14 +69,15 @@ std::optional<MapFile> MapCache::read(std::size_t number) const {
 std::optional<std::vector<glm::vec3>> MapCache::places() const {
   std::error_code code;
   std::set<std::size_t> numbers;  // in order: the same map answers each time
-  if (!folder_.empty())
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_, code)) {
-      const std::string name = entry.path().stem().string();
-      std::size_t number = 0;
-      const auto [end, failure] = std::from_chars(name.data(), name.data() + name.size(), number);
-      if (failure == std::errc() && end == name.data() + name.size() && entry.path() == file(number))
-        numbers.insert(number);
-    }
+  if (folder_.empty()) return std::nullopt;
+  // A bake may remove the folder meanwhile.
+  for (fs::directory_iterator entry(folder_, code), last; !code && entry != last; entry.increment(code)) {
+    const std::string name = entry->path().stem().string();
+    std::size_t number = 0;
+    const auto [end, failure] = std::from_chars(name.data(), name.data() + name.size(), number);
+    if (failure == std::errc() && end == name.data() + name.size() && entry->path() == file(number))
+      numbers.insert(number);
+  }
   for (const std::size_t number : numbers)
     if (std::optional<MapFile> map = read(number)) return std::move(map->places);
   return std::nullopt;
