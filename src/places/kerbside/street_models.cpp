@@ -17,9 +17,9 @@ using city::Outline, city::panelled_box, city::smooth, city::tube, city::turned;
 using glm::vec3;
 
 constexpr int tree_shapes = 5;
-// A car of so few triangles looks the same from 3 m on: of a wheel's outline 18 segments leave out 5 mm.
+// A car of so few triangles looks the same from 3 m on: of a wheel's outline 16 segments leave out 6 mm.
 constexpr float car_error_m = 0.006f, car_crease_deg = 45.0f;
-constexpr int car_wheel_segments = 18;
+constexpr int car_wheel_segments = 16;
 constexpr std::size_t cars_per_body = 20;  // in a short street they differ by their paint alone
 constexpr float whole = 10.0f;             // of panels: one square
 
