@@ -55,9 +55,9 @@ class CrownCity {
 
 /// East and north of the main crossing: its middle, and beside facades of the street to the north of it. At
 /// the city's hour, 15:30 on a day in June, one side of that street lies in the sun, as the crossing does,
-/// and the other in the shade. In the sun it is the crown of an orange tree halfway between two street trees,
-/// 14 and 15 m from their trunks.
-inline constexpr glm::vec2 crown_on_crossing_m{0.0f}, crown_in_sun_m{5.0f, 48.0f},
+/// and the other in the shade. In the sun it is the crown of an orange tree between two street trees, 11 and
+/// 18 m from their trunks.
+inline constexpr glm::vec2 crown_on_crossing_m{0.0f}, crown_in_sun_m{5.0f, 52.0f},
     crown_in_shade_m{-5.0f, 20.0f};
 
 /// Root of the mean square of what is off, over all channels, as a share of the truth's mean.
