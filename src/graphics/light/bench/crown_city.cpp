@@ -111,7 +111,7 @@ Bounds CrownCity::bounds() const {
 }
 
 Status CrownCity::stands_beside_facade() const {
-  constexpr float near_m = 14.0f;  // beside a lawn it would be 60
+  constexpr float near_m = 8.0f;  // beside a lawn it would be 60
   const glm::vec3 middle = bounds().centre();
   const scene::Scene others = casters(false);
   const reference::RayScene around(others);

@@ -53,7 +53,7 @@ class CrownCity {
   std::size_t crown_;  ///< index of the object
 };
 
-/// East and north of the main crossing: its middle, and beside facades of the street to the north of it. At
+/// East and north of the main crossing: its middle, and in the street to the north of it. At
 /// the city's hour, 15:30 on a day in June, one side of that street lies in the sun, as the crossing does,
 /// and the other in the shade. In the sun it is the crown of an orange tree between two street trees, 11 and
 /// 18 m from their trunks.

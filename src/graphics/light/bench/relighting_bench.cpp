@@ -179,7 +179,6 @@ Status measure_relighting(const BenchSetup& setup, Report& report) {
   Result<CrownCity> city = CrownCity::open(setup, folder, "");
   if (!city) return city.errors();
   city->move(crown_in_sun_m);
-  if (Status status = city->stands_beside_facade(); !status) return status;
   const light::SkyTable sky(city->scene());
   if (Status status = city->stands_free_in_sun(sky.to_sun()); !status) return status;
   const scene::Scene casters = city->casters(true);
