@@ -18,7 +18,7 @@ class FreeGround {
   /// Of a scene whose lanes are laid. What stands between 0.35 m and 3.5 m above the ground takes its place;
   /// what hangs higher does not. Tunnels ("Road tunnel") have no room. Of trees that are grown plants, the
   /// trunks do. The plan ends with `area` (x and y), if the lanes reach farther: beyond it nothing is free.
-  explicit FreeGround(const scene::Scene& scene, const Bounds& area = everywhere());
+  FreeGround(const scene::Scene& scene, const Bounds& area);
   /// An area without an end.
   static Bounds everywhere();
 
