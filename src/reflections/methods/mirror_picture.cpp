@@ -10,6 +10,10 @@ constexpr GLuint starts_unit = 0, directions_unit = 1;  // of materials, which c
 constexpr std::array<glm::vec2, 4> edge_samples{glm::vec2(-0.125f, -0.375f), glm::vec2(0.375f, -0.125f),
                                                 glm::vec2(-0.375f, 0.125f), glm::vec2(0.125f, 0.375f)};
 
+constexpr const char* whole_screen = "graphics/render/whole_screen.vert";
+constexpr float far_plane = -1.0f;         // farther than any ray, of which the nearest has depth 1
+constexpr float max_sample_offset = 0.5f;  // of the sum in x and y
+
 gl::Texture layered(GLenum format, glm::ivec2 size, int layers) {
   gl::Texture texture = gl::Texture::create(GL_TEXTURE_2D_ARRAY);
   glTextureStorage3D(texture.name(), 1, format, size.x, size.y, layers);
@@ -39,26 +43,38 @@ glm::ivec4 pixels_of(const render::View& view, const Bounds& bounds) {
 
 Result<MirrorPicture> MirrorPicture::create(const render::Renderer& renderer, RayCount count) {
   const std::vector<render::GpuMaterial> materials = renderer.gpu().mirror_materials();
-  render::SurfaceSource source{.fragment = "reflections/methods/mirror_rays.frag"};
+  const render::SurfaceSource source{.fragment = "reflections/methods/mirror_rays.frag"};
   Result<render::SurfacePrograms> rays = render::SurfacePrograms::create(source, materials);
   if (!rays) return rays.errors();
-  std::optional<render::SurfacePrograms> edges;
+  std::optional<EdgePrograms> edges;
   if (count == RayCount::and_edges) {
-    source.defines.emplace_back("HAS_RAYS", "");
-    Result<render::SurfacePrograms> made = render::SurfacePrograms::create(source, materials);
+    Result<EdgePrograms> made = EdgePrograms::create(source, materials);
     if (!made) return made.errors();
     edges = *std::move(made);
-    edges->set("ray_starts", int(first_method_unit));
-    edges->set("ray_directions", int(first_method_unit + 1));
   }
-  Result<gl::Program> spread = gl::Program::create("graphics/render/whole_screen.vert",
-                                                   "reflections/methods/mirror_picture_spread.frag");
+  Result<gl::Program> spread =
+      gl::Program::create(whole_screen, "reflections/methods/mirror_picture_spread.frag");
   if (!spread) return spread.errors();
   return MirrorPicture(*std::move(rays), std::move(edges), *std::move(spread));
 }
 
-MirrorPicture::MirrorPicture(render::SurfacePrograms ray_programs,
-                             std::optional<render::SurfacePrograms> edge_programs, gl::Program spread)
+Result<MirrorPicture::EdgePrograms> MirrorPicture::EdgePrograms::create(
+    render::SurfaceSource source, const std::vector<render::GpuMaterial>& materials) {
+  source.defines.emplace_back("HAS_RAYS", "");
+  Result<render::SurfacePrograms> rays = render::SurfacePrograms::create(source, materials);
+  if (!rays) return rays.errors();
+  rays->set("ray_starts", int(first_method_unit));
+  rays->set("ray_directions", int(first_method_unit + 1));
+  Result<gl::Program> outlines =
+      gl::Program::create(whole_screen, "reflections/methods/mirror_outlines.frag");
+  if (!outlines) return outlines.errors();
+  Result<gl::Program> others = gl::Program::create(whole_screen, "reflections/methods/no_second_ray.frag");
+  if (!others) return others.errors();
+  return EdgePrograms{*std::move(rays), *std::move(outlines), *std::move(others)};
+}
+
+MirrorPicture::MirrorPicture(render::SurfacePrograms ray_programs, std::optional<EdgePrograms> edge_programs,
+                             gl::Program spread)
     : ray_programs_(std::move(ray_programs)),
       edge_programs_(std::move(edge_programs)),
       spread_(std::move(spread)),
@@ -86,9 +102,13 @@ void MirrorPicture::resize(int width, int height) {
     rays_[std::size_t(layer)] = framebuffer_of(starts_, directions_, layer);
     light_[std::size_t(layer)] = framebuffer_of(base_light_, coat_light_, layer);
   }
+  if (layers() == 1) return;
+  second_depth_ = gl::Framebuffer::create();
+  glNamedFramebufferTextureLayer(second_depth_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0, 1);
 }
 
-void MirrorPicture::draw_rays(render::Renderer& renderer) {
+void MirrorPicture::draw_rays(render::Renderer& renderer, RayCount count) {
+  has_second_rays_ = edge_programs_ && count == RayCount::and_edges;
   resize(renderer.width(), renderer.height());
   constexpr GLfloat nothing[4]{};
   glClearNamedFramebufferfv(rays_[0].name(), GL_COLOR, 1, nothing);
@@ -97,7 +117,7 @@ void MirrorPicture::draw_rays(render::Renderer& renderer) {
   view.surface_programs = &ray_programs_;
   view.framebuffer = rays_[0].name();
   renderer.draw_view(view);
-  if (edge_programs_) draw_edge_rays(renderer);
+  if (has_second_rays_) draw_edge_rays(renderer);
 }
 
 /// Surfaces that cover samples of pixels without covering their middles, wipers and outlines: the nearest at
@@ -105,21 +125,43 @@ void MirrorPicture::draw_rays(render::Renderer& renderer) {
 void MirrorPicture::draw_edge_rays(render::Renderer& renderer) {
   constexpr GLfloat nothing[4]{};
   glClearNamedFramebufferfv(rays_[1].name(), GL_COLOR, 1, nothing);
-  glTextureBarrier();  // the first layer, which is read, has been written above
+  glCopyImageSubData(depth_.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, depth_.name(), GL_TEXTURE_2D_ARRAY, 0, 0,
+                     0, 1, width_, height_, 1);
+  clear_second_depth(edge_programs_->outlines);
   glBindTextureUnit(first_method_unit, starts_.name());
   glBindTextureUnit(first_method_unit + 1, directions_.name());
   render::View view = renderer.main_view();
   view.kind = render::ViewKind::mirrors;
-  view.surface_programs = &*edge_programs_;
+  view.surface_programs = &edge_programs_->rays;
   view.framebuffer = rays_[1].name();
+  view.clears = false;
   const glm::mat4 clip_from_world = view.clip_from_world;
   const glm::vec2 pixels(float(view.width), float(view.height));
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(-max_sample_offset, 0.0f);  // to what the surface's depth is at most at the pixel's middle
   for (const glm::vec2 sample : edge_samples) {
     view.clip_from_world =
         glm::translate(glm::mat4(1.0f), glm::vec3(-2.0f * sample / pixels, 0.0f)) * clip_from_world;
     renderer.draw_view(view);
-    view.clears = false;
   }
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  clear_second_depth(edge_programs_->no_second_ray);
+}
+
+/// Takes the depth of the second layer away where the program does not discard it.
+void MirrorPicture::clear_second_depth(const gl::Program& program) const {
+  glTextureBarrier();  // what is read has been written above
+  glBindFramebuffer(GL_FRAMEBUFFER, second_depth_.name());
+  glViewport(0, 0, width_, height_);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LESS);
+  glDisable(GL_CULL_FACE);
+  program.use();
+  bind_rays(program);
+  program.set("screen_depth", far_plane);
+  glBindVertexArray(no_attributes_.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void MirrorPicture::bind_rays(const gl::Program& program) const {
@@ -136,13 +178,14 @@ void MirrorPicture::begin_light(int layer) const {
   glDepthMask(GL_FALSE);
   glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);
+  glScissor(0, 0, width_, height_);
   glEnable(GL_SCISSOR_TEST);
 }
 
 void MirrorPicture::draw_over(const render::Renderer& renderer, const gl::Program& program,
                               const VisibleReflector& reflector) const {
   bind_rays(program);
-  program.set("screen_depth", -1.0f);  // farther than any ray, of which the nearest has depth 1
+  program.set("screen_depth", far_plane);
   const glm::ivec4 pixels =
       pixels_of(renderer.main_view(), renderer.gpu().object_bounds()[std::size_t(reflector.object)]);
   glScissor(pixels.x, pixels.y, pixels.z, pixels.w);
@@ -154,8 +197,10 @@ void MirrorPicture::draw_over(const render::Renderer& renderer, const gl::Progra
 void MirrorPicture::draw_light(
     const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
     const std::function<const gl::Program&(const VisibleReflector&)>& use_program) const {
-  for (int layer = 0; layer < layers(); ++layer) {
+  constexpr GLfloat nothing[4]{};
+  for (int layer = 0; layer <= int(has_second_rays_); ++layer) {
     begin_light(layer);
+    if (has_second_rays_) glClearBufferfv(GL_COLOR, 0, nothing);  // nothing is spread to where no ray is
     glDepthFunc(GL_LESS);
     for (const VisibleReflector& reflector : reflectors) {
       const gl::Program& program = use_program(reflector);
@@ -163,11 +208,12 @@ void MirrorPicture::draw_light(
       draw_over(renderer, program, reflector);
     }
   }
-  spread_light(renderer, reflectors);
+  end_light();
+  if (!has_second_rays_) spread_light(renderer, reflectors);
 }
 
-/// Beside pixels with a ray, where a surface covers less than the pixel's middle, the light of neighbours
-/// stands in.
+/// Without second rays: beside pixels with a ray, where a surface covers less than the pixel's middle, the
+/// light of neighbours stands in.
 void MirrorPicture::spread_light(const render::Renderer& renderer,
                                  const std::vector<VisibleReflector>& reflectors) const {
   begin_light(0);
@@ -176,6 +222,10 @@ void MirrorPicture::spread_light(const render::Renderer& renderer,
   spread_.use();
   bind(spread_, first_method_unit);
   for (const VisibleReflector& reflector : reflectors) draw_over(renderer, spread_, reflector);
+  end_light();
+}
+
+void MirrorPicture::end_light() {
   glDisable(GL_SCISSOR_TEST);
   glDepthMask(GL_TRUE);
 }
@@ -219,6 +269,7 @@ void MirrorPicture::bind(const gl::Program& program, GLuint first_unit) const {
   glBindTextureUnit(first_unit + 1, coat_light_.name());
   glBindTextureUnit(first_unit + 2, starts_.name());
   glBindTextureUnit(first_unit + 3, directions_.name());
+  if (program.declares("has_second_rays")) program.set("has_second_rays", int(has_second_rays_));
   program.set("base_light", int(first_unit));
   program.set("coat_light", int(first_unit + 1));
   if (!program.declares("ray_starts")) return;

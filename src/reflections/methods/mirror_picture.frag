@@ -9,6 +9,7 @@
 
 uniform highp sampler2DArray base_light;  // alpha: there is some
 uniform highp sampler2DArray coat_light;
+uniform bool has_second_rays;  // pixels have two layers of light
 
 vec3 mirrored_direction;
 ivec3 light_pixel;  // where the light is read; z: the layer
@@ -17,9 +18,12 @@ void look_along(vec3 at, vec3 direction) {
   mirrored_direction = direction;
   float footprint_m = max(length(dFdx(at)) + length(dFdy(at)), 1e-4f), least;
   light_pixel = ivec3(fitting_pixel(at, direction, footprint_m, least), 0);
-  if (least <= 1.0f || textureSize(ray_directions, 0).z == 1) return;
+  if (least <= 1.0f || !has_second_rays) return;
   ivec3 second = ivec3(ivec2(gl_FragCoord.xy), 1);
-  if (ray_difference(second, at, direction, footprint_m) < least) light_pixel = second;
+  // Without any ray in the first layer, the light of a nearer surface stands in.
+  bool has_none = texelFetch(ray_directions, light_pixel, 0).w == 0.0f;
+  if (has_none || ray_difference(second, surface_object() + 1, at, direction, footprint_m) < least)
+    light_pixel = second;
 }
 
 vec3 reflected_radiance(float roughness, int layer) {

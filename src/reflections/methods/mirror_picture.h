@@ -38,8 +38,9 @@ class MirrorPicture {
   /// For the scene of that renderer. Fails only if a shader does.
   static Result<MirrorPicture> create(const render::Renderer& renderer, RayCount rays = RayCount::one);
 
-  /// The rays of all mirror-like surfaces that the prepared main view shows.
-  void draw_rays(render::Renderer& renderer);
+  /// The rays of all mirror-like surfaces that the prepared main view shows; no more of each pixel than
+  /// `create` was told.
+  void draw_rays(render::Renderer& renderer, RayCount count = RayCount::and_edges);
 
   /// What comes along them. For each reflector `use_program` uses a program of render/whole_screen.vert and a
   /// fragment shader that reads the layer ray_layer of ray_starts and ray_directions, as mirror_rays.frag
@@ -60,25 +61,37 @@ class MirrorPicture {
   void bind(const gl::Program& program, GLuint first_unit) const;
 
  private:
-  MirrorPicture(render::SurfacePrograms ray_programs, std::optional<render::SurfacePrograms> edge_programs,
+  struct EdgePrograms {
+    render::SurfacePrograms rays;
+    gl::Program outlines;       ///< leaves the depth of first rays where nothing shares their pixel
+    gl::Program no_second_ray;  ///< leaves the depth of second rays
+    static Result<EdgePrograms> create(render::SurfaceSource source,
+                                       const std::vector<render::GpuMaterial>& materials);
+  };
+
+  MirrorPicture(render::SurfacePrograms ray_programs, std::optional<EdgePrograms> edge_programs,
                 gl::Program spread);
   int layers() const { return edge_programs_ ? 2 : 1; }
   void resize(int width, int height);
   void draw_edge_rays(render::Renderer& renderer);
+  void clear_second_depth(const gl::Program& program) const;
   void bind_rays(const gl::Program& program) const;
   void begin_light(int layer) const;
+  static void end_light();
   void draw_over(const render::Renderer& renderer, const gl::Program& program,
                  const VisibleReflector& reflector) const;
   void spread_light(const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors) const;
 
+  bool has_second_rays_ = false;  ///< of the rays drawn last
   int width_ = 0, height_ = 0;
   glm::ivec2 room_{0};  ///< of the textures, which never shrink
   render::SurfacePrograms ray_programs_;
-  std::optional<render::SurfacePrograms> edge_programs_;
+  std::optional<EdgePrograms> edge_programs_;
   gl::Program spread_;
   gl::Texture starts_, directions_, depth_;  ///< of rays; the nearest in each pixel
   gl::Texture base_light_, coat_light_;
   std::array<gl::Framebuffer, 2> rays_, light_;  ///< of each layer
+  gl::Framebuffer second_depth_;
   gl::VertexArray no_attributes_;
 };
 

@@ -70,10 +70,10 @@ class ColourOfObject : public Reflections {
 };
 
 /// The same by a shader, along all rays of each pixel.
-class DrawnColourOfObject final : public ColourOfObject {
+class DrawnColourOfObject : public ColourOfObject {
  public:
-  DrawnColourOfObject(MirrorPicture picture, int red_object)
-      : ColourOfObject(std::move(picture), red_object) {
+  DrawnColourOfObject(MirrorPicture picture, int red_object, RayCount count = RayCount::and_edges)
+      : ColourOfObject(std::move(picture), red_object), count_(count) {
     Result<gl::Program> program = gl::Program::create("graphics/render/whole_screen.vert",
                                                       "reflections/methods/test_object_light.frag");
     EXPECT_TRUE(program) << to_string(program.errors());
@@ -83,7 +83,7 @@ class DrawnColourOfObject final : public ColourOfObject {
  private:
   void update_maps(render::Renderer& renderer, const scene::Scene&,
                    const std::vector<VisibleReflector>& reflectors) override {
-    mirrors().draw_rays(renderer);
+    mirrors().draw_rays(renderer, count_);
     mirrors().draw_light(renderer, reflectors, [&](const VisibleReflector& reflector) -> const gl::Program& {
       program_.use();
       program_.set("reflecting_object", reflector.object);
@@ -92,7 +92,15 @@ class DrawnColourOfObject final : public ColourOfObject {
     });
   }
 
+  RayCount count_;
   gl::Program program_;
+};
+
+/// The same in a frame that goes without second rays.
+class DrawnWithFirstRays final : public DrawnColourOfObject {
+ public:
+  DrawnWithFirstRays(MirrorPicture picture, int red_object)
+      : DrawnColourOfObject(std::move(picture), red_object, RayCount::one) {}
 };
 
 /// Two mirrors, one before the other, both tilted against the pixels and before a black wall; the sky, which
@@ -224,6 +232,16 @@ TEST_F(OutlinesOfMirrors, OfWipersAreThoseOfTheSameObjectWithoutReflections) {
     EXPECT_GT(partly, 60) << across_px;
     EXPECT_EQ(off, 0) << across_px << " pixels across";
   }
+}
+
+/// A picture that may have second rays draws one without them, too.
+TEST_F(OutlinesOfMirrors, AreThoseOfFirstRaysInAFrameWithoutSecondOnes) {
+  const MirrorScene scene = wiper_scene(0.7f);
+  const ImageF drawn = picture<DrawnWithFirstRays>(scene, RayCount::and_edges),
+               expected = picture<DrawnColourOfObject>(scene, RayCount::one),
+               with_second = picture<DrawnColourOfObject>(scene, RayCount::and_edges);
+  EXPECT_EQ(drawn.pixels, expected.pixels);
+  EXPECT_NE(drawn.pixels, with_second.pixels);
 }
 
 /// Mean difference in red from the mean of 64 pixels of a finer picture.
