@@ -236,7 +236,9 @@ void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scen
     faces_drawn_ += 6;
   choose_details(renderer, reflectors);
   if (reflectors.empty()) return;
-  picture_.draw_rays(renderer);
+  // Second rays smooth outlines: the first thing that a frame which has to hold a budget goes without.
+  picture_.draw_rays(renderer,
+                     budget_.budget_ms() > 0.0 ? methods::RayCount::one : methods::RayCount::and_edges);
   const gl::Program* current = nullptr;
   picture_.draw_light(renderer, reflectors,
                       [&](const methods::VisibleReflector& reflector) -> const gl::Program& {
