@@ -38,8 +38,8 @@ class MirrorPicture {
   /// For the scene of that renderer. Fails only if a shader does.
   static Result<MirrorPicture> create(const render::Renderer& renderer, RayCount rays = RayCount::one);
 
-  /// The rays of all mirror-like surfaces that the prepared main view shows; no more of each pixel than
-  /// `create` was told.
+  /// The rays of all mirror-like surfaces that the prepared main view shows; of each pixel no more than
+  /// `create` allows.
   void draw_rays(render::Renderer& renderer, RayCount count = RayCount::and_edges);
 
   /// What comes along them. For each reflector `use_program` uses a program of render/whole_screen.vert and a
