@@ -43,15 +43,6 @@ std::optional<glm::dvec3> direction_in_world(const Photograph& photograph, glm::
   return glm::dmat3(photograph.world_from_camera) * *direction;
 }
 
-std::optional<glm::dvec3> world_of_pixel(const Photograph& photograph, glm::dvec2 pixel,
-                                         double distance_along_axis) {
-  const std::optional<glm::dvec3> direction = direction_of(photograph.lens, pixel);
-  if (!direction || direction->z >= 0.0)
-    return std::nullopt;  // a fisheye's rim: never at a distance along the axis
-  const glm::dvec3 in_camera = *direction * (distance_along_axis / -direction->z);
-  return photograph.position_in_world() + glm::dmat3(photograph.world_from_camera) * in_camera;
-}
-
 double distance_along_axis(const Photograph& photograph, glm::dvec3 position_in_world) {
   return glm::dot(photograph.forward_in_world(), position_in_world - photograph.position_in_world());
 }

@@ -64,10 +64,6 @@ std::optional<glm::dvec2> pixel_of_world(const Photograph& photograph, glm::dvec
 /// The unit direction in the world of what appears at a pixel, from the photograph's position.
 std::optional<glm::dvec3> direction_in_world(const Photograph& photograph, glm::dvec2 pixel);
 
-/// The point of the world that appears at a pixel at this distance along the camera's axis (metres).
-std::optional<glm::dvec3> world_of_pixel(const Photograph& photograph, glm::dvec2 pixel,
-                                         double distance_along_axis);
-
 /// Distance along the camera's axis, metres; negative behind the camera.
 double distance_along_axis(const Photograph& photograph, glm::dvec3 position_in_world);
 

@@ -21,9 +21,6 @@ TEST(Photograph, ProjectsIntoPixelsAndBack) {
   EXPECT_LT(pixel->y, 300.0);
   const double distance = distance_along_axis(photograph, position);
   EXPECT_NEAR(distance, 8.0, 1e-6);
-  const auto back = world_of_pixel(photograph, *pixel, distance);
-  ASSERT_TRUE(back);
-  EXPECT_LT(glm::distance(*back, position), 1e-6);
   const auto direction = direction_in_world(photograph, *pixel);
   ASSERT_TRUE(direction);
   EXPECT_LT(glm::distance(*direction, glm::normalize(position - photograph.position_in_world())), 1e-6);

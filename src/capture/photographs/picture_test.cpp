@@ -154,6 +154,12 @@ TEST(Picture, ASetIsKeptWithGainsAndMasks) {
   EXPECT_EQ(loaded->set.photographs[0].file, pictures / "place_0.png");
   EXPECT_EQ(loaded->set.world_from_given, set.world_from_given);
   EXPECT_TRUE(read_picture(loaded->set.photographs[0]));
+  std::filesystem::rename(pictures, folder.path() / "moved");
+  const auto moved = read_photograph_set(folder.path() / "out");
+  ASSERT_FALSE(moved) << "the place is there, its photographs are elsewhere";
+  EXPECT_NE(to_string(moved.errors()).find("the folder of the photographs is not there"), std::string::npos)
+      << to_string(moved.errors());
+  std::filesystem::rename(folder.path() / "moved", pictures);
   for (const char* wrong : {"[1, 2]", "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, \"one\"]]"}) {
     folder.write("out/photographs.json",
                  fmt::format(R"({{"pictures": "../pictures", "world_from_given": {}}})", wrong));

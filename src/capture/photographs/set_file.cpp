@@ -193,6 +193,11 @@ Result<LoadedSet> read_photograph_set(const fs::path& folder) {
   const Result<ColmapModel> model = read_colmap_model(folder);
   if (!model) return model.errors();
   const fs::path pictures = found(json["pictures"], folder);
+  if (std::error_code code; !fs::is_directory(pictures, code))
+    return error(
+        "{}: the folder of the photographs is not there; put it back, or write into {} where it is now, "
+        "as \"pictures\"",
+        pictures.string(), set->file);
   LoadedSet loaded = photograph_set_of(*model, pictures);
   ByName photographs;
   for (Photograph& photograph : loaded.set.photographs) photographs.try_emplace(photograph.name, &photograph);
