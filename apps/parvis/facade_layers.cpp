@@ -112,8 +112,10 @@ void add_facade_layers(CLI::App& stage, Chosen& chosen) {
 void add_facade_fill(CLI::App& stage, Chosen& chosen) {
   const auto arguments = std::make_shared<FillArguments>();
   arguments->place.add(stage);
-  stage.add_option("--accept", arguments->accepted,
-                   "Proposals to accept: PHOTOGRAPH or PHOTOGRAPH:LAYER, * for all; may repeat");
+  stage.add_option(
+      "--accept", arguments->accepted,
+      "Proposals to accept: PHOTOGRAPH or PHOTOGRAPH:LAYER, surfaces:NAME for the colours of what no "
+      "photograph shows, * for all; may repeat");
   stage.add_option("--refuse", arguments->refused, "Proposals to refuse, named the same way; may repeat");
   stage.footer("Example: parvis facade fill courtyard --accept '*' --refuse '0004.jpg:L01-002 wall_3'");
   stage.callback([arguments, &chosen] { chosen = [arguments] { return fill(*arguments); }; });

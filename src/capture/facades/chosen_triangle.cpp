@@ -60,25 +60,16 @@ float pixel_size_log2(const View& view, glm::vec3 point) {
   return float(std::log2(std::max(view.to_camera(glm::dvec3(point)).z / view.fx, 1e-6)));
 }
 
-/// Of a photograph's colours to be shown, by its opinion: its own at its own viewpoint.
-struct ShownBalance {
-  glm::vec3 scale, offset;
-};
-ShownBalance shown_balance(const PackedPhoto& photo, float own) {
-  const auto& [scale, offset] = photo.balance;
-  return {glm::mix(glm::vec3(scale[0], scale[1], scale[2]), glm::vec3(1.0f), own),
-          glm::mix(glm::vec3(offset[0], offset[1], offset[2]), glm::vec3(0.0f), own)};
-}
-
-glm::vec3 fallback_of(const PackedFacade& facade, std::size_t corner) {
-  return glm::vec3(facade.fallback[corner]) / 255.0f;
-}
-
-/// The triangle in its fallback colours alone.
-ChosenTriangle bare_triangle(const PackedFacade& facade, std::size_t triangle) {
-  ChosenTriangle bare;
-  for (std::size_t k = 0; k < 3; ++k) bare.corners[k].rest = fallback_of(facade, 3 * triangle + k);
-  return bare;
+/// What is drawn of the layers that are shown, one or two; nothing where stored_corners has nothing of one.
+using Stored = std::array<StoredCorners, 2>;
+std::optional<Stored> stored_in(const PackedFacade& facade, std::span<const std::uint32_t> shown, Corners c) {
+  Stored stored;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const std::optional<StoredCorners> one = stored_corners(facade, facade.layers[shown[i]], c);
+    if (!one) return std::nullopt;
+    stored[i] = *one;
+  }
+  return stored;
 }
 
 /// What up to three layers say of a point. Not said: that of layers that are not given.
@@ -102,6 +93,74 @@ int kind_of(const FacadeLookup::Opinion& opinion) {
   return opinion.key < 100.0f ? 0 : 1;
 }
 
+/// Whether the layers that are shown, the first so many, say of a corner as they say of the middle that they
+/// have seen it, or were filled there.
+bool are_of_one_kind(const Opinions& corner, const Opinions& middle, std::size_t shown) {
+  for (std::size_t i = 0; i < shown; ++i)
+    if (kind_of(corner[i]) != kind_of(middle[i])) return false;
+  return true;
+}
+
+/// Of the first layer, of the second, and of the fallback. The second may be the better one at a corner.
+glm::vec3 shares_of(FacadeLookup& lookup, const Opinions& corner) {
+  if (!(corner[1].key < corner[0].key)) return lookup.shares(corner[0], corner[1], corner[2].key);
+  const glm::vec3 swapped = lookup.shares(corner[1], corner[0], corner[2].key);
+  return {swapped.y, swapped.x, swapped.z};
+}
+
+/// Of a photograph's colours to be shown, by its opinion: its own at its own viewpoint.
+struct ShownBalance {
+  glm::vec3 scale, offset;
+};
+ShownBalance shown_balance(const PackedPhoto& photo, float own) {
+  const auto& [scale, offset] = photo.balance;
+  return {glm::mix(glm::vec3(scale[0], scale[1], scale[2]), glm::vec3(1.0f), own),
+          glm::mix(glm::vec3(offset[0], offset[1], offset[2]), glm::vec3(0.0f), own)};
+}
+
+glm::vec3 fallback_of(const PackedFacade& facade, std::size_t corner) {
+  return glm::vec3(facade.fallback[corner]) / 255.0f;
+}
+
+/// What the layers that are shown weigh at a corner, which is `corner` of all corners.
+ChosenCorner weighed_corner(const PackedFacade& facade, FacadeLookup& lookup,
+                            std::span<const std::uint32_t> shown, const Opinions& opinions,
+                            std::size_t corner) {
+  const glm::vec3 shares = shares_of(lookup, opinions);
+  ChosenCorner chosen;
+  chosen.rest = shares.z * fallback_of(facade, corner);
+  glm::vec3* const factors[2]{&chosen.of_first, &chosen.of_second};
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const ShownBalance balance = shown_balance(facade.photos[facade.layers[shown[i]].photo], opinions[i].own);
+    *factors[i] = shares[int(i)] * balance.scale, chosen.rest += shares[int(i)] * balance.offset;
+  }
+  return chosen;
+}
+
+/// The triangle in its fallback colours alone.
+ChosenTriangle bare_triangle(const PackedFacade& facade, std::size_t triangle) {
+  ChosenTriangle bare;
+  for (std::size_t k = 0; k < 3; ++k) bare.corners[k].rest = fallback_of(facade, 3 * triangle + k);
+  return bare;
+}
+
+/// The triangle with what is looked up of it; its corners weigh nothing yet.
+ChosenTriangle stored_triangle(const PackedFacade& facade, std::span<const std::uint32_t> shown,
+                               const Stored& stored, glm::vec3 centre) {
+  ChosenTriangle chosen;
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    chosen.pixel_sizes[int(i)] = pixel_size_log2(facade.photos[facade.layers[shown[i]].photo].view, centre);
+  chosen.tiles = {stored[0].first, stored[0].across, shown.size() > 1 ? stored[1].first : -1,
+                  stored[1].across};
+  return chosen;
+}
+
+float angle_of(Corners corners, glm::vec3 centre, glm::vec3 eye) {
+  float radius = 0.0f;
+  for (const glm::vec3& corner : corners) radius = std::max(radius, glm::distance(corner, centre));
+  return radius / std::max(glm::distance(centre, eye), 1e-6f);
+}
+
 }  // namespace
 
 std::optional<ChosenTriangle> chosen_triangle(const PackedFacade& facade, FacadeLookup& lookup,
@@ -109,43 +168,22 @@ std::optional<ChosenTriangle> chosen_triangle(const PackedFacade& facade, Facade
                                               std::span<const std::uint32_t> layers) {
   const Corners corners(facade.corners.data() + 3 * triangle, 3);
   const glm::vec3 centre = (corners[0] + corners[1] + corners[2]) / 3.0f;
-  float radius = 0.0f;
-  for (const glm::vec3& corner : corners) radius = std::max(radius, glm::distance(corner, centre));
-  const float angle = radius / std::max(glm::distance(centre, eye.position), 1e-6f);
+  const float angle = angle_of(corners, centre, eye.position);
   if (angle > largest_angle) return std::nullopt;
   if (layers.empty()) return bare_triangle(facade, triangle);
-  const std::size_t shown = std::min<std::size_t>(layers.size(), 2);
-  std::array<StoredCorners, 2> stored;
-  for (std::size_t i = 0; i < shown; ++i) {
-    const std::optional<StoredCorners> one = stored_corners(facade, facade.layers[layers[i]], corners);
-    if (!one) return std::nullopt;
-    stored[i] = *one;
-  }
+
+  const std::span<const std::uint32_t> shown = layers.first(std::min<std::size_t>(layers.size(), 2));
+  const std::optional<Stored> stored = stored_in(facade, shown, corners);
+  if (!stored) return std::nullopt;
+  ChosenTriangle chosen = stored_triangle(facade, shown, *stored, centre);
   const Opinions in_middle = opinions_at(lookup, eye, layers, centre);
-  ChosenTriangle chosen;
-  for (std::size_t i = 0; i < shown; ++i)
-    chosen.pixel_sizes[int(i)] = pixel_size_log2(facade.photos[facade.layers[layers[i]].photo].view, centre);
-  chosen.tiles = {stored[0].first, stored[0].across, shown > 1 ? stored[1].first : -1, stored[1].across};
   for (std::size_t k = 0; k < 3; ++k) {
-    Opinions here = opinions_at(lookup, eye, layers, corners[k]);
-    for (std::size_t i = 0; i < shown; ++i)
-      if (kind_of(here[i]) != kind_of(in_middle[i])) return std::nullopt;
-    const bool is_swapped = here[1].key < here[0].key;
-    if (std::min(here[0].key, here[1].key) >= FacadeLookup::no_opinion) here = in_middle;
-    if (angle > one_choice_angle && here[2].key < std::max(here[0].key, here[1].key)) return std::nullopt;
-    const auto &best = here[is_swapped ? 1 : 0], &second = here[is_swapped ? 0 : 1];
-    const glm::vec3 shares = lookup.shares(best, second, here[2].key);
-    const float of_first = is_swapped ? shares.y : shares.x, of_second = is_swapped ? shares.x : shares.y;
-    ChosenCorner& corner = chosen.corners[k];
-    corner.at = {stored[0].at[k], stored[1].at[k]};
-    corner.rest = shares.z * fallback_of(facade, 3 * triangle + k);
-    const auto add = [&](std::size_t i, float share, glm::vec3& factor) {
-      if (i >= shown) return;
-      const PackedPhoto& photo = facade.photos[facade.layers[layers[i]].photo];
-      const ShownBalance balance = shown_balance(photo, here[i].own);
-      factor = share * balance.scale, corner.rest += share * balance.offset;
-    };
-    add(0, of_first, corner.of_first), add(1, of_second, corner.of_second);
+    const Opinions here = opinions_at(lookup, eye, layers, corners[k]);
+    if (!are_of_one_kind(here, in_middle, shown.size())) return std::nullopt;
+    const bool third_is_better = here[2].key < std::max(here[0].key, here[1].key);
+    if (angle > one_choice_angle && third_is_better) return std::nullopt;
+    chosen.corners[k] = weighed_corner(facade, lookup, shown, here, 3 * triangle + k);
+    chosen.corners[k].at = {(*stored)[0].at[k], (*stored)[1].at[k]};
   }
   return chosen;
 }

@@ -19,9 +19,9 @@ struct ChosenEye {
 };
 
 /// The photographs of a triangle, and what they weigh at its corners. `layers`: the best at its centre, the
-/// best first; of a third only the penalty counts. None: no photograph shows the triangle. Nothing where a
-/// triangle is too large for weights that change evenly, or partly beside what a photograph has stored:
-/// there each pixel has to compare photographs.
+/// best first, each of which says something there; of a third only the penalty counts. None: no photograph
+/// shows the triangle. Nothing where a triangle is too large for weights that change evenly, or partly beside
+/// what a photograph has stored: there each pixel has to compare photographs.
 std::optional<ChosenTriangle> chosen_triangle(const PackedFacade& facade, FacadeLookup& lookup,
                                               std::size_t triangle, const ChosenEye& eye,
                                               std::span<const std::uint32_t> layers);

@@ -278,7 +278,7 @@ void FacadeTextures::upload_tiles(std::uint32_t photo) {
 std::uint64_t FacadeTextures::texture_bytes() const {
   GLint pages = 0;
   glGetTextureLevelParameteriv(atlas_.name(), 0, GL_TEXTURE_DEPTH, &pages);
-  return std::uint64_t(pages) * page_bytes(decodes_);
+  return std::uint64_t(pages) * page_bytes(!holds_blocks());
 }
 
 bool FacadeTextures::holds_blocks() const {

@@ -12,6 +12,7 @@ namespace parvis::facades {
 
 /// What became of a filled layer.
 enum class Filling : std::uint8_t { none, proposal, accepted, refused };
+inline constexpr const char* filling_names[] = {"none", "proposal", "accepted", "refused"};  ///< in files
 
 /// Where a filled pixel came from.
 enum class FillSource : std::uint8_t { none, seen, photographs, patches, smooth, painted };

@@ -194,6 +194,15 @@ Frustum frustum_of(const View& view) {
           view.cy / view.fy};
 }
 
+void distrust(const ImageF& trust, LayeredView& layered) {
+  for (std::size_t l = 0; l < layered.layers.size(); ++l) {
+    const PixelBox& box = layered.layers[l].box;
+    for (int y = 0; y < box.height; ++y)
+      for (int x = 0; x < box.width; ++x)
+        if (*trust.at(x + box.x, y + box.y) < 0.5f) layered.masks[l].at(x, y)[1] = 0;
+  }
+}
+
 Frustum sheared(const Frustum& frustum, const PixelBox& box, int width, int height) {
   const double per_column = (frustum.x_max - frustum.x_min) / width,
                per_row = (frustum.y_max - frustum.y_min) / height;

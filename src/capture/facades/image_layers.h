@@ -58,6 +58,10 @@ inline constexpr int min_layer_side = 128;
 LayeredView image_layers(const LayerModel& model, const View& view, const VisibilityLayers& visibility,
                          int min_side = min_layer_side);
 
+/// Takes what hides the model in a photograph, and is no part of it (trust below one half), for not seen: it
+/// is to be filled. `trust` has one value for each pixel of the photograph.
+void distrust(const ImageF& trust, LayeredView& layered);
+
 /// Left, right, bottom and top of a frustum at z = 1, as glFrustum takes them at its near plane.
 struct Frustum {
   double x_min, x_max, y_min, y_max;

@@ -120,9 +120,10 @@ bool take_visibility(Taker& taker, const LayerModel& model, VisibilityLayers& vi
   return std::ranges::count(is_in_layer, char(0)) == 0;
 }
 
+/// Whether the floats hold it that colours are balanced in.
 bool is_finite(const Balance& balance) {
-  double sum = 0.0;
-  for (std::size_t c = 0; c < 3; ++c) sum += balance.scale[c] + balance.offset[c];
+  float sum = 0.0f;
+  for (std::size_t c = 0; c < 3; ++c) sum += float(balance.scale[c]) + float(balance.offset[c]);
   return std::isfinite(sum);
 }
 

@@ -72,19 +72,19 @@ TEST(KeptLayers, WhatIsFinishedIsTakenOverAndTheRestIsMade) {
 TEST(KeptLayers, AnotherPhotographModelOrSettingIsComputedAgain) {
   Place place;
   (void)place.made();
-  const auto is_made_anew = [&](const PlaceSettings& settings) {
+  const auto is_computed_again = [&](const PlaceSettings& settings) {
     make_old(place.found), make_old(place.filled(1));
     (void)place.made(settings);
     return is_new(place.found) && is_new(place.filled(1));
   };
-  EXPECT_FALSE(is_made_anew({})) << "the control";
+  EXPECT_FALSE(is_computed_again({})) << "the control";
   place.source.meshes[2] = wall("post", 3, 1.5f, 2.0f, -2, 2);
-  EXPECT_TRUE(is_made_anew({}));
+  EXPECT_TRUE(is_computed_again({}));
   fs::copy_file(place.input.photos[0].file, place.input.photos[1].file, fs::copy_options::overwrite_existing);
-  EXPECT_TRUE(is_made_anew({}));
+  EXPECT_TRUE(is_computed_again({}));
   PlaceSettings settings;
   settings.finds_occluders = false;
-  EXPECT_TRUE(is_made_anew(settings));
+  EXPECT_TRUE(is_computed_again(settings));
 }
 
 TEST(KeptLayers, DamagedFilesCountAsAbsentWhateverTheyHold) {
@@ -94,17 +94,40 @@ TEST(KeptLayers, DamagedFilesCountAsAbsentWhateverTheyHold) {
   ASSERT_TRUE(write_file(place.found, bytes.substr(0, bytes.size() / 2)));
   ASSERT_TRUE(write_file(place.filled(1), "no filling"));
   expect_equal(first, place.made());
-  // A stranger's file with a seal of its own must not lead outside of any list.
+  // A stranger's file with a seal of its own must not lead outside of any list: it is refused, or taken with
+  // the numbers that it holds.
   const SealedKind kind{"PVFOUN_1", "layers of a place"};
   const std::string content = *read_sealed(place.found, kind);
   const std::size_t key_bytes = 8;
   const std::size_t step = std::max<std::size_t>(content.size() / 40, 1);
+  std::vector<std::string> filled;
+  for (int i = 0; i < 4; ++i) filled.push_back(*read_file(place.filled(i)));
+  int refused = 0;
   for (std::size_t at = key_bytes; at < content.size(); at += step) {
     std::string changed = content;
     changed[at] = char(changed[at] ^ 0x55);
     ASSERT_TRUE(write_sealed(place.found, kind, changed));
-    EXPECT_EQ(place.made().names, first.names) << at;
+    for (int i = 0; i < 4; ++i) ASSERT_TRUE(write_file(place.filled(i), filled[std::size_t(i)]));
+    make_old(place.found);
+    const PlaceLayers made = place.made();
+    EXPECT_EQ(made.names, first.names) << at;
+    if (!is_new(place.found)) continue;
+    ++refused;
+    expect_equal(first, made);
   }
+  EXPECT_GT(refused, 10);
+}
+
+TEST(KeptLayers, BalancesThatFloatsCannotHoldAreRefused) {
+  const Place place;
+  PlaceLayers first = place.made();
+  const LayerKeeper keeper(place.folder, 7);
+  const std::vector<PreparedPhoto> prepared(first.names.size());
+  ASSERT_TRUE(keeper.keep_found(first, prepared));
+  EXPECT_TRUE(keeper.read_found(first)) << "the control";
+  first.balances[1].scale[2] = 1e300;
+  ASSERT_TRUE(keeper.keep_found(first, prepared));
+  EXPECT_FALSE(keeper.read_found(first));
 }
 
 }  // namespace

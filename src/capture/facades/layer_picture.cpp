@@ -35,7 +35,8 @@ void dilate(LayerPicture& picture) {
 /// nothing is known.
 void hide_rest(LayerPicture& picture) {
   for (std::size_t i = 0; i < picture.is_own.size(); ++i)
-    if (!picture.is_own[i]) picture.rgba.pixels[4 * i + 3] = 0, picture.is_own[i] = picture.is_covered[i] = 1;
+    if (!picture.is_own[i])
+      picture.rgba.pixels[4 * i + 3] = unknown_alpha, picture.is_own[i] = picture.is_covered[i] = 1;
 }
 
 bool holds_backdrop(const PlaceLayers& place, std::size_t photo, std::size_t layer) {
@@ -115,9 +116,11 @@ LayerPicture layer_picture(const PlaceLayers& place, std::size_t photo, std::siz
       std::uint8_t* p = picture.rgba.at(x + left, y + top);
       std::copy_n(from.at(x, y), 4, p);
       if (source == FillSource::painted && p[3] < 255) picture.has_alpha = true;
-      if (source != FillSource::painted) p[3] = is_certain ? 255 : unseen_alpha;
+      // What hides a surface is not its colour: without a proposal nothing is known of it.
+      const bool is_known = is_certain || is_first || takes_proposal;
+      if (source != FillSource::painted) p[3] = is_certain ? 255 : is_known ? unseen_alpha : unknown_alpha;
       picture.is_covered[at(grid, x + left, y + top)] = 1;
-      picture.is_needed[at(grid, x + left, y + top)] = is_first || *needed.at(x, y) != 0;
+      picture.is_needed[at(grid, x + left, y + top)] = is_first || (is_known && *needed.at(x, y) != 0);
     }
   // Alpha then is the artist's alone.
   if (picture.has_alpha)

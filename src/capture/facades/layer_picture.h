@@ -12,6 +12,9 @@ inline constexpr int dilation_rings =
     6;  ///< pixels beyond a surface's edge that repeat it: filters and mipmaps
 /// Of pixels that were filled, in mixed tiles.
 inline constexpr std::uint8_t unseen_alpha = 191;
+/// Of pixels of which nothing is known, in mixed tiles: hidden parts of the backdrop, and those of layers
+/// whose proposals were refused.
+inline constexpr std::uint8_t unknown_alpha = 0;
 
 /// A layer as it is stored, with what is needed of it.
 struct LayerPicture {

@@ -7,13 +7,11 @@
 
 #include "base/colour.h"
 #include "base/image_io.h"
-#include "base/random.h"
 #include "capture/facades/baselines.h"
-#include "capture/facades/facade_lookup.h"
 #include "capture/facades/packed_facade.h"
 #include "capture/facades/rephotography.h"
 #include "capture/facades/scan_trim.h"
-#include "capture/facades/view_choice.h"
+#include "capture/facades/shown_colours.h"
 
 namespace parvis::facades {
 namespace {
@@ -36,33 +34,6 @@ Image8 model_mask(const LayerModel& model, const View& view) {
     mask.pixels[i] = seen.triangles[i] == no_triangle_seen ? 0 : 255;
   return mask;
 }
-
-/// A facade as it is drawn: a view compares the photographs alone that are chosen for its eye.
-class DrawnFacade {
- public:
-  explicit DrawnFacade(const PackedFacade& facade)
-      : facade_(facade), texels_(facade), chooser_(facade), drawn_(facade) {
-    drawn_.blocks.clear();  // the texels hold them
-  }
-  ImageF view(const View& view) { return this->view(view, item_buffer(model_of(facade_), view)); }
-  ImageF view(const View& view, const ItemBuffer& seen) {
-    const ViewChoice choice = chooser_.choice(glm::vec3(view.centre), float(1.0 / view.fx));
-    drawn_.lists = choice.lists, drawn_.candidates = facade_.candidates;
-    drawn_.candidates.insert(drawn_.candidates.end(), choice.candidates.begin(), choice.candidates.end());
-    return view_of_facade(drawn_, texels_, view, seen, choice.triangles);
-  }
-  /// The same with other lists.
-  ImageF view_of(const std::vector<glm::uvec2>& lists, const View& view, const ItemBuffer& seen) {
-    drawn_.lists = lists, drawn_.candidates = facade_.candidates;
-    return view_of_facade(drawn_, texels_, view, seen);
-  }
-
- private:
-  const PackedFacade& facade_;
-  FacadeTexels texels_;
-  ViewChooser chooser_;
-  PackedFacade drawn_;
-};
 
 /// 0 where the layers do not count a pixel of the model as seen.
 ImageF trust_of(const LayeredView& layered, const PreparedPhoto& photo) {
@@ -97,6 +68,21 @@ void add(MethodFigures& figures, const Rephotography& judged, double share) {
   figures.covered_percent += share * judged.covered_percent;
 }
 
+/// Of the pixels of `mask`, those that layers colour, percent.
+double layered_percent(ShownColours& colours, const View& view, const Image8& mask) {
+  const std::vector<ColourSource> sources = colours.sources(view);
+  std::size_t all = 0, layered = 0;
+  for (std::size_t p = 0; p < sources.size(); ++p)
+    if (mask.pixels[p] > 127) ++all, layered += sources[p] == ColourSource::layers;
+  return all == 0 ? 0.0 : 100.0 * double(layered) / double(all);
+}
+
+/// Without any photograph: what is proposed for what no photograph shows is left.
+PackedFacade without_photographs(PackedFacade facade) {
+  for (glm::uvec2& list : facade.lists) list.y = 0;
+  return facade;
+}
+
 /// `given`: the model before it was trimmed, so that what was cut off lacks in what is covered.
 Status judge_held_out(const std::vector<Photograph>& held_out, const LayerModel& given,
                       const PlaceLayers& place, DrawnFacade& facade,
@@ -112,6 +98,7 @@ Status judge_held_out(const std::vector<Photograph>& held_out, const LayerModel&
   if (with_baselines)
     for (const BaselineMethod method : baseline_methods) figures.methods.push_back({name_of(method)});
   const double share = 1.0 / double(held_out.size());
+  ShownColours colours(*figures.facade), bare(without_photographs(*figures.facade));
   if (held_out.size() > 1) figures.exchanged.method = "control_exchanged";
   for (std::size_t i = 0; i < held_out.size(); ++i) {
     const Image8 &truth = truths[i], &another = truths[(i + 1) % truths.size()];
@@ -119,7 +106,10 @@ Status judge_held_out(const std::vector<Photograph>& held_out, const LayerModel&
     if (!view) return view.errors();
     const Image8 mask = model_mask(given, *view);
     const Image8 shown = bytes_of(facade.view(*view));
-    add(figures.methods[0], rephotography(shown, truth, mask), share);
+    Rephotography judged = rephotography(shown, truth, mask);
+    judged.covered_percent = layered_percent(colours, *view, mask);
+    add(figures.methods[0], judged, share);
+    figures.uncovered_percent += share * layered_percent(bare, *view, mask);
     if (held_out.size() > 1 && another.width == shown.width && another.height == shown.height)
       add(figures.exchanged, rephotography(shown, another, mask), share);
     for (std::size_t m = 1; m < figures.methods.size(); ++m) {
@@ -149,64 +139,20 @@ Status judge_own_viewpoints(const std::vector<Photograph>& photos, const PlaceLa
   return Done{};
 }
 
-/// Small views from between the cameras, a little aside, toward what one of them looks at.
-View random_view(const PlaceLayers& place, Random& random) {
-  constexpr int width = 96, height = 64;
-  const auto any = [&] { return std::size_t(random.next() % place.views.size()); };
-  const View &a = place.views[any()], &b = place.views[any()], &ahead = place.views[any()];
-  View view = ahead;
-  view.centre = glm::mix(a.centre, b.centre, double(random.uniform()));
-  view.width = width, view.height = height;
-  view.fx = view.fy = 0.8 * width, view.cx = 0.5 * width, view.cy = 0.5 * height;
-  return view;
+/// The place with all that was proposed refused, as a control: filling is switched off.
+PackedFacade unfilled_facade(PlaceLayers place) {
+  for (Filled& filled : place.filled)
+    for (Filling& state : filled.states)
+      if (state != Filling::none) state = Filling::refused;
+  std::ranges::fill(place.surfaces, Filling::refused);
+  return packed_facade(place);
 }
 
-/// The lists without what is not of one photograph.
-std::vector<glm::uvec2> lists_of_one_photo(const PackedFacade& facade, std::uint32_t photo) {
-  std::vector<glm::uvec2> lists = facade.lists;
-  for (glm::uvec2& list : lists) {
-    const auto first = facade.candidates.begin() + std::ptrdiff_t(list.x);
-    const auto found = std::find_if(first, first + std::ptrdiff_t(list.y),
-                                    [&](std::uint32_t layer) { return facade.layers[layer].photo == photo; });
-    const auto at = std::uint32_t(found - first);
-    list = {list.x + std::min(at, list.y), at < list.y ? 1u : 0u};
-  }
-  return lists;
-}
-
-std::size_t differing_pixels(const ItemBuffer& seen, const ImageF& a, const ImageF& b) {
-  std::size_t differing = 0;
-  for (std::size_t p = 0; p < seen.triangles.size(); ++p)
-    differing +=
-        seen.triangles[p] != no_triangle_seen &&
-        !std::equal(a.pixels.begin() + std::ptrdiff_t(4 * p), a.pixels.begin() + std::ptrdiff_t(4 * p + 3),
-                    b.pixels.begin() + std::ptrdiff_t(4 * p));
-  return differing;
-}
-
-void judge_random_views(const PlaceLayers& place, const PackedFacade& packed, DrawnFacade& facade, int count,
-                        PlaceFigures& figures) {
-  const LayerModel model = model_of(packed);
-  std::vector<glm::uvec2> none = packed.lists;  // without candidates only the fallback is left
-  for (glm::uvec2& list : none) list.y = 0;
-  const std::vector<glm::uvec2> one = lists_of_one_photo(packed, 0);
-  Random random(1);
-  std::size_t of_model = 0, coloured = 0, filled = 0, filled_by_one = 0;
-  for (int i = 0; i < count; ++i) {
-    const View view = random_view(place, random);
-    const ItemBuffer seen = item_buffer(model, view);
-    const ImageF picture = facade.view(view, seen), fallback = facade.view_of(none, view, seen);
-    for (std::size_t p = 0; p < seen.triangles.size(); ++p) {
-      if (seen.triangles[p] == no_triangle_seen) continue;
-      ++of_model, coloured += picture.pixels[4 * p + 3] > 0.0f;
-    }
-    filled += differing_pixels(seen, picture, fallback);
-    filled_by_one += differing_pixels(seen, facade.view_of(one, view, seen), fallback);
-  }
-  if (of_model == 0) return;
-  figures.coloured_percent = 100.0 * double(coloured) / double(of_model);
-  figures.filled_percent = 100.0 * double(filled) / double(of_model);
-  figures.filled_one_photo_percent = 100.0 * double(filled_by_one) / double(of_model);
+/// `place` is used up.
+void judge_random_views(PlaceLayers place, const PackedFacade& facade, int count, PlaceFigures& figures) {
+  const std::vector<View> views = random_views(place.views, count);
+  figures.filled = shown_shares(facade, views);
+  figures.unfilled = shown_shares(unfilled_facade(std::move(place)), views);
 }
 
 /// Bytes of its textures and tables without compression, at 4 bytes per texel.
@@ -296,9 +242,10 @@ Result<PlaceFigures> measured_place(const std::vector<Photograph>& photos,
   if (!given) return given.errors();
   PlaceFigures figures;
   const auto begin = std::chrono::steady_clock::now();
-  const Result<PlaceLayers> place = place_layers(judged->used, judged->meshes);
+  Result<PlaceLayers> place = place_layers(judged->used, judged->meshes);
   if (!place) return place.errors();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  figures.layers_s = took.count();
   figures.layers_s_per_photo = took.count() / double(place->names.size());
   figures.warnings = place->warnings;
   figures.facade = std::make_shared<const PackedFacade>(packed_facade(*place));
@@ -320,8 +267,8 @@ Result<PlaceFigures> measured_place(const std::vector<Photograph>& photos,
     return status.errors();
   if (Status status = judge_own_viewpoints(judged->used, *place, drawn, figures); !status)
     return status.errors();
-  judge_random_views(*place, facade, drawn, options.random_views, figures);
   if (Status status = judge_roundtrips(*place, figures); !status) return status.errors();
+  judge_random_views(*std::move(place), facade, options.random_views, figures);
   return figures;
 }
 

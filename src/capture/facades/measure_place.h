@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "capture/facades/packed_facade.h"
+#include "capture/facades/shown_colours.h"
 #include "capture/photographs/photograph.h"
 
 namespace parvis::facades {
@@ -14,7 +15,9 @@ namespace parvis::facades {
 struct MethodFigures {
   std::string method;  ///< "layers", or a baseline's name
   double psnr_cc_db = 0.0, rephoto = 0.0;
-  double covered_percent = 0.0;  ///< of the pixels that show the model as it was given
+  /// Of the pixels that show the model as it was given, those with a colour of photographs: of the layers
+  /// proposed colours (surface_colours.h) do not count, though the other figures are of all that is shown.
+  double covered_percent = 0.0;
 };
 
 /// Figures of one place for the bench `facades`.
@@ -22,12 +25,11 @@ struct PlaceFigures {
   std::vector<MethodFigures> methods;  ///< the layers first
   MethodFigures exchanged;  ///< a control: the layers judged by another photograph that was held out (no
                             ///< name: there is one alone)
-  double filled_percent =
-      0.0;  ///< of the model's pixels in random views, those that a photograph's tile colours
-  double filled_one_photo_percent = 0.0;  ///< a control: the same where each triangle has one photograph
-                                          ///< alone to be looked up in, the first of all
-  double coloured_percent = 0.0;  ///< of the same, those that have a colour at all: the fallback counts, too
+  double uncovered_percent = 0.0;           ///< a control: what layers cover when no photograph is looked up
+  ShownShares filled;                       ///< of the model in random views
+  ShownShares unfilled;                     ///< a control: the same with all proposals refused
   double layers_s_per_photo = 0.0;          ///< wall clock, all stages but packing
+  double layers_s = 0.0;                    ///< a control: of all photographs together
   double texture_share_percent = 0.0;       ///< of the photographs' RGBA
   double uncompressed_share_percent = 0.0;  ///< a control: of the same without compression
   double texture_over_extracted = 0.0, uncompressed_over_extracted = 0.0;  ///< the latter a control

@@ -60,12 +60,17 @@ struct PackedLayer {
   int down() const { return (box.height + tile_inner - 1) / tile_inner; }
 };
 
+/// Of a corner about which no photograph says anything, and whose proposal was refused; known colours never
+/// are this one.
+inline constexpr glm::u8vec3 no_colour{128, 128, 128};
+
 /// What a facade(...) node shows.
 struct PackedFacade {
   std::vector<std::string> surfaces;               ///< names of the model's objects
   std::vector<glm::vec3> corners;                  ///< in the facade's frame, three per triangle
   std::vector<std::uint32_t> surface_of_triangle;  ///< ascending
-  std::vector<glm::u8vec3> fallback;               ///< sRGB per corner, where no photograph says anything
+  /// Proposed sRGB per corner, where no photograph says anything, or no_colour.
+  std::vector<glm::u8vec3> fallback;
   std::vector<glm::uvec2> lists;                   ///< per triangle: first and number of its candidates
   std::vector<std::uint32_t> candidates;           ///< layers
   std::vector<PackedPhoto> photos;

@@ -17,7 +17,7 @@ OpenSlot tile_of(const LayerPicture& picture, int column, int row) {
       const std::size_t i = std::size_t(y * tile_side + x);
       if (picture.holds_backdrop &&
           (u != px || v != py)) {  // beyond the box: known as little as behind surfaces
-        tile.texels.at(x, y)[3] = 0, tile.is_covered[i] = tile.is_own[i] = 1;
+        tile.texels.at(x, y)[3] = unknown_alpha, tile.is_covered[i] = tile.is_own[i] = 1;
         continue;
       }
       if (std::abs(u - px) > dilation_rings || std::abs(v - py) > dilation_rings) continue;

@@ -4,19 +4,30 @@
 #include <fstream>
 
 #include "base/files.h"
+#include "capture/facades/coarse_model_file.h"
 #include "capture/facades/place_folder.h"
 #include "capture/facades/psd.h"
 #include "capture/facades/test_street.h"
+#include "formats/gltf/gltf_reader.h"
 
 namespace parvis::facades {
 namespace {
 namespace fs = std::filesystem;
 
+/// The street as a stage of the program finds it in a file.
+std::vector<NamedMesh> read_street(const fs::path& file) {
+  EXPECT_TRUE(write_meshes(file, street()));
+  Errors warnings;
+  const Result<scene::Model> model = scene::read_gltf(file, warnings);
+  EXPECT_TRUE(model) << to_string(model ? Errors{} : model.errors());
+  return model ? named_meshes(*model) : std::vector<NamedMesh>{};
+}
+
 /// A place on disk whose layered pictures are written.
 struct Written {
   Photos input;
   fs::path folder = input.folder.path() / "place";
-  PlaceSource source{folder, street(), input.photos, {}};
+  PlaceSource source{folder, read_street(folder / "model.glb"), input.photos, {}};
 
   Written() { write(made()); }
   PlaceLayers made() const {
@@ -71,6 +82,8 @@ TEST(PlaceEdits, WhatWasPaintedIsCollectedAndKept) {
   EXPECT_EQ(blue_pixels(place.made(), "far"), std::pair(0, 0)) << "the control: nothing was painted yet";
   paint_far(place.psd());
   const PlaceLayers painted = place.made();
+  EXPECT_TRUE(painted.warnings.empty())
+      << "all layers are found by their names: " << to_string(painted.warnings);
   EXPECT_EQ(blue_pixels(painted, "far"), std::pair(100, 100));
   // Written once more, the picture holds the edit, and nothing is collected twice.
   place.write(painted);

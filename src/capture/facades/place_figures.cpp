@@ -228,25 +228,29 @@ Image8 merging_figure(const PlaceLayers& place, std::size_t photo) {
 }
 
 Image8 projection_figure(const PlaceLayers& place, const PackedFacade& facade, std::size_t photo) {
-  const View view = aside(place, photo), &from = place.views[photo];
+  const View view = aside(place, photo);
   const ItemBuffer seen = item_buffer(place.model, view);
   const std::vector<std::uint32_t> items = item_of_triangle(place.model, place.visibility[photo].items);
+  std::vector<glm::dmat4> textures;
+  for (const ImageLayer& layer : place.layered[photo].layers)
+    textures.push_back(texture_from_world(place.views[photo], layer.box));
   Image8 colours(view.width, view.height, 3, 255);
   for (int y = 0; y < view.height; ++y)
     for (int x = 0; x < view.width; ++x) {
       const std::uint32_t t = seen.triangles[seen.index(x, y)];
       if (t == no_triangle_seen || items[t] == no_item) continue;
-      const glm::dvec3 p =
-          from.to_camera(view.to_world({x + 0.5, y + 0.5}, double(seen.depths[seen.index(x, y)])));
       const std::uint32_t l = place.layered[photo].layer_of_item[items[t]];
       const PixelBox& box = place.layered[photo].layers[l].box;
-      if (p.z <= 0.0) continue;
-      const glm::dvec2 pixel = from.to_pixel(p);
-      const int u = int(std::floor(pixel.x)), v = int(std::floor(pixel.y));
-      if (!box.contains(u, v)) continue;
-      const bool is_seen = place.layered[photo].masks[l].at(u - box.x, v - box.y)[1] != 0;
+      const glm::dvec3 point = view.to_world({x + 0.5, y + 0.5}, double(seen.depths[seen.index(x, y)]));
+      const glm::dvec4 at = textures[l] * glm::dvec4(point, 1.0);
+      const glm::dvec2 in_texture = glm::dvec2(at) / at.w;
+      if (!(at.w > 0.0 && std::min(in_texture.x, in_texture.y) >= 0.0 &&
+            std::max(in_texture.x, in_texture.y) < 1.0))
+        continue;
+      const int u = int(in_texture.x * box.width), v = int(in_texture.y * box.height);
+      const bool is_seen = place.layered[photo].masks[l].at(u, v)[1] != 0;
       const std::array<std::uint8_t, 3> tint = layer_colour(l);
-      const std::uint8_t* own = place.filled[photo].pixels[l].at(u - box.x, v - box.y);
+      const std::uint8_t* own = place.filled[photo].pixels[l].at(u, v);
       for (std::size_t c = 0; c < 3; ++c)
         colours.at(x, y)[c] = std::uint8_t((own[c] + 2 * tint[c]) / (is_seen ? 3 : 8));
     }

@@ -20,8 +20,6 @@ namespace {
 
 using photographs::Photograph;
 
-constexpr const char* state_names[] = {"none", "proposal", "accepted", "refused"};
-
 /// Margins that hold every transparent pixel of the picture's border, the same on opposite sides.
 glm::ivec2 empty_margins(const Image8& image) {
   const auto is_full = [&](int x, int y) { return image.at(x, y)[3] > 0; };
@@ -182,6 +180,7 @@ std::vector<NamedMesh> named_meshes(const scene::Model& model) {
     if (known == meshes.end()) known = meshes.insert(meshes.end(), {name, {}});
     append(known->mesh, part.mesh, pose[std::size_t(part.node)]);
   }
+  std::ranges::sort(meshes, {}, &NamedMesh::name);
   return meshes;
 }
 
@@ -215,7 +214,7 @@ Status write_choices(const fs::path& folder, const std::vector<FillingChoice>& c
   all->insert(all->end(), choices.begin(), choices.end());
   for (const FillingChoice& choice : *all)
     text += fmt::format("\"{}\" \"{}\" {}\n", choice.photograph, choice.layer,
-                        state_names[std::size_t(choice.state)]);
+                        filling_names[std::size_t(choice.state)]);
   return write_file(folder / "filling.txt", text);
 }
 
@@ -232,34 +231,52 @@ Result<std::vector<FillingChoice>> read_choices(const fs::path& folder) {
   for (int number = 1; std::getline(lines, line); ++number) {
     const std::vector<std::string> parts = words(line.substr(0, line.find('#')));
     if (parts.empty()) continue;
-    const auto state = parts.size() == 3 ? std::ranges::find(state_names, parts[2]) : std::end(state_names);
-    if (state == std::end(state_names) || state == std::begin(state_names))
+    const auto state =
+        parts.size() == 3 ? std::ranges::find(filling_names, parts[2]) : std::end(filling_names);
+    if (state == std::end(filling_names) || state == std::begin(filling_names))
       errors.push_back(error_at({file.string(), number, 0},
                                 "expected \"PHOTOGRAPH\" \"LAYER\" accepted|refused|proposal"));
     else
-      choices.push_back({parts[0], parts[1], Filling(state - std::begin(state_names))});
+      choices.push_back({parts[0], parts[1], Filling(state - std::begin(filling_names))});
   }
   if (!errors.empty()) return errors;
   return choices;
 }
 
+namespace {
+
+/// Whether a choice is about `layer` of `photograph`.
+bool fits(const FillingChoice& choice, const std::string& photograph, const std::string& layer) {
+  return (choice.photograph == "*" || choice.photograph == photograph) &&
+         (choice.layer == "*" || choice.layer == layer);
+}
+
+/// False where there is no such layer.
+bool apply_choice(const FillingChoice& choice, PlaceLayers& place) {
+  bool is_found = false;
+  for (std::size_t i = 0; i < place.names.size(); ++i)
+    for (std::size_t l = 0; l < place.layered[i].layers.size(); ++l) {
+      if (!fits(choice, place.names[i], place.layered[i].layers[l].name)) continue;
+      is_found = true;
+      if (place.filled[i].states[l] != Filling::none) place.filled[i].states[l] = choice.state;
+    }
+  for (std::size_t object = 0; object < place.surfaces.size(); ++object)
+    if (fits(choice, surfaces_choice, place.model.objects[object].name))
+      is_found = true, place.surfaces[object] = choice.state;
+  return is_found;
+}
+
+}  // namespace
+
 Errors apply_choices(const std::vector<FillingChoice>& choices, PlaceLayers& place) {
   Errors messages;
-  for (const FillingChoice& choice : choices) {
-    bool is_found = false;
-    for (std::size_t i = 0; i < place.names.size(); ++i) {
-      if (choice.photograph != "*" && choice.photograph != place.names[i]) continue;
-      for (std::size_t l = 0; l < place.layered[i].layers.size(); ++l) {
-        if (choice.layer != "*" && choice.layer != place.layered[i].layers[l].name) continue;
-        is_found = true;
-        if (place.filled[i].states[l] != Filling::none) place.filled[i].states[l] = choice.state;
-      }
-    }
-    if (!is_found)
+  for (const FillingChoice& choice : choices)
+    if (!apply_choice(choice, place))
       messages.push_back(
-          error("filling.txt: there is no layer \"{}\" of photograph {} any more; the choice is kept",
-                choice.layer, choice.photograph));
-  }
+          choice.photograph == surfaces_choice
+              ? error("filling.txt: there is no surface \"{}\" any more; the choice is kept", choice.layer)
+              : error("filling.txt: there is no layer \"{}\" of photograph {} any more; the choice is kept",
+                      choice.layer, choice.photograph));
   return messages;
 }
 

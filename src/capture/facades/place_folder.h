@@ -21,7 +21,8 @@
 
 namespace parvis::facades {
 
-/// The objects of a model, in world coordinates; parts of one name are one object.
+/// The objects of a model, in world coordinates; parts of one name are one object. Ordered by name: layers are
+/// numbered and named by the order of objects, which no file format has to keep.
 std::vector<NamedMesh> named_meshes(const scene::Model& model);
 
 /// A place on disk with the model that its layers are made of.
@@ -36,6 +37,10 @@ struct PlaceSource {
 /// leaves empty are cropped. Photographs named in `left_out` are passed over.
 Result<PlaceSource> read_place(const std::filesystem::path& folder, std::vector<NamedMesh> meshes,
                                const std::vector<std::string>& left_out = {});
+
+/// In a FillingChoice, instead of a photograph: colours for what no photograph shows (PlaceLayers::surfaces).
+/// Its layers are the objects of the model.
+inline constexpr const char* surfaces_choice = "surfaces";
 
 /// What an artist decided about proposals: per photograph and layer; "*" stands for all.
 struct FillingChoice {

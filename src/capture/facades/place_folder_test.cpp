@@ -78,5 +78,19 @@ TEST(PlaceFolder, PhotographsOfOneNameAreRefused) {
   EXPECT_NE(to_string(source.errors()).find("rename"), std::string::npos) << to_string(source.errors());
 }
 
+TEST(PlaceFolder, ProposedColoursOfSurfacesAreRefusedByTheirNames) {
+  const Photos input;
+  PlaceLayers place = *place_layers(input.photos, street());
+  const std::vector<Filling> of_first = place.filled[0].states;
+  EXPECT_TRUE(apply_choices({{surfaces_choice, "post", Filling::refused}}, place).empty());
+  EXPECT_EQ(place.surfaces, (std::vector<Filling>{Filling::proposal, Filling::proposal, Filling::refused}));
+  EXPECT_EQ(place.filled[0].states, of_first);
+  const Errors messages = apply_choices({{surfaces_choice, "gone", Filling::refused}}, place);
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_NE(messages[0].message.find("no surface \"gone\""), std::string::npos) << messages[0].message;
+  EXPECT_TRUE(apply_choices({{"*", "*", Filling::accepted}}, place).empty());
+  EXPECT_EQ(place.surfaces, std::vector<Filling>(3, Filling::accepted));
+}
+
 }  // namespace
 }  // namespace parvis::facades

@@ -1,5 +1,6 @@
 #include "capture/facades/place_layers.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/colour.h"
@@ -97,6 +98,12 @@ Result<PlaceLayers> place_layers(const std::vector<photographs::Photograph>& pho
   const std::optional<std::vector<ImageF>> kept_trust = keeper ? keeper->read_found(place) : std::nullopt;
   if (!kept_trust) place.visibility = visibility_layers(place.model, place.views, place.names);
   add_image_layers(prepared, place, *progress);
+  if (std::ranges::all_of(place.visibility,
+                          [](const VisibilityLayers& seen) { return seen.items.empty(); })) {
+    place.warnings.push_back(
+        error("no photograph sees anything of the model; give one in the frame of the cameras"));
+    return place.warnings;
+  }
   progress.reset();  // the next steps have bars of their own
 
   if (!kept_trust)
@@ -111,17 +118,8 @@ Result<PlaceLayers> place_layers(const std::vector<photographs::Photograph>& pho
   for (std::size_t i = 0; i < prepared.size(); ++i)
     if (!prepared[i].trust.empty()) distrust(prepared[i].trust, place.layered[i]);
   fill_layers(prepared, settings.fills, keeper, place);
+  place.surfaces.assign(place.model.objects.size(), Filling::proposal);
   return place;
-}
-
-std::vector<LayeredPhoto> displayed(const PlaceLayers& place) {
-  std::vector<LayeredPhoto> photos;
-  for (std::size_t i = 0; i < place.names.size(); ++i) {
-    photos.push_back(
-        layered_photo(place.names[i], place.layers(i), chosen_pixels(place.filled[i], place.originals[i])));
-    photos.back().balance = place.balances[i];
-  }
-  return photos;
 }
 
 }  // namespace parvis::facades

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "capture/facades/balance.h"
 #include "capture/facades/fill.h"
-#include "capture/facades/layered_photo.h"
 
 namespace parvis::facades {
 
@@ -21,6 +21,9 @@ struct PlaceLayers {
   std::vector<LayerPixels> originals;  ///< the photographs' own pixels
   std::vector<Balance> balances;
   std::vector<Filled> filled;
+  /// Per object of the model: the state of the colours that are proposed for what no photograph shows of it,
+  /// the last step of filling (surface_colours.h).
+  std::vector<Filling> surfaces;
   Errors warnings;  ///< an entry per photograph that was left out, and those of visibility_layers
 
   LayersOfModel layers(std::size_t photo) const {
@@ -37,13 +40,10 @@ struct PlaceSettings {
 };
 
 /// Makes them. Photographs without pixels, of another size than their cameras, or with lens distortion are
-/// left out, with a warning each. Fails where none is left or the model is invalid. A `keeper` gives what is
-/// finished already, and keeps what is made; where it cannot, a warning says so.
+/// left out, with a warning each. Fails where none is left, none sees the model, or the model is invalid. A
+/// `keeper` gives what is finished already, and keeps what is made; where it cannot, a warning says so.
 Result<PlaceLayers> place_layers(const std::vector<photographs::Photograph>& photos,
                                  const std::vector<NamedMesh>& meshes, const PlaceSettings& settings = {},
                                  const LayerKeeper* keeper = nullptr);
-
-/// The photographs as they are displayed, with the proposals that were not refused.
-std::vector<LayeredPhoto> displayed(const PlaceLayers& place);
 
 }  // namespace parvis::facades

@@ -10,7 +10,7 @@ namespace parvis::facades {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int packing_version = 2;  ///< counts when the same sources are packed in another way
+constexpr int packing_version = 3;  ///< counts when the same sources are packed in another way
 constexpr int layers_version = 1;   ///< counts when layers are found or filled in another way
 
 fs::path recipe_file(const fs::path& folder) { return folder / "packed.txt"; }

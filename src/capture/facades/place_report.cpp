@@ -53,6 +53,24 @@ std::string photograph_row(const PlaceLayers& place, std::size_t i, const std::s
              stem);
 }
 
+/// Of each surface: how much of its area no photograph shows, and what became of the colours that are
+/// proposed for that.
+std::string surface_rows(const PlaceLayers& place, const PackedFacade& facade) {
+  std::vector<double> areas(facade.surfaces.size(), 0.0), without_photograph = areas;
+  for (std::size_t t = 0; t < facade.triangle_count(); ++t) {
+    const glm::vec3* c = facade.corners.data() + 3 * t;
+    const double area = 0.5 * double(glm::length(glm::cross(c[1] - c[0], c[2] - c[0])));
+    areas[facade.surface_of_triangle[t]] += area;
+    if (facade.lists[t].y == 0) without_photograph[facade.surface_of_triangle[t]] += area;
+  }
+  std::string rows;
+  for (std::size_t s = 0; s < facade.surfaces.size(); ++s)
+    rows += fmt::format("<tr><td>{}<td>{:.1f} %<td>{}</tr>\n", escaped(facade.surfaces[s]),
+                        100.0 * without_photograph[s] / std::max(areas[s], 1e-12),
+                        filling_names[std::size_t(place.surfaces[s])]);
+  return rows;
+}
+
 }  // namespace
 
 Image8 layer_map(const PlaceLayers& place, std::size_t photo) {
@@ -122,7 +140,12 @@ Status write_report(const fs::path& folder, const PlaceLayers& place, const Pack
     page += photograph_row(place, i, stem);
     progress.advance();
   }
-  page += "</table>\n";
+  page +=
+      "</table><h2>Surfaces</h2><p>What no photograph shows has a proposed colour: of the same surface near "
+      "by, "
+      "or of surfaces that lie as it does.</p><table><tr><th>surface<th>area in no "
+      "photograph<th>colour</tr>\n";
+  page += surface_rows(place, facade) + "</table>\n";
   if (!place.warnings.empty())
     page += "<h2>Messages</h2><pre>" + escaped(to_string(place.warnings)) + "</pre>\n";
   return write_file(folder / "index.html", page);

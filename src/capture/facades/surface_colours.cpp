@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t max_known_colours = 2000;  ///< that unknown surfaces are coloured from
 
-/// Mean of the nearest known colours, weighted by distance.
+/// Mean of the nearest known colours, weighted by distance; no_colour where none is known.
 class NearestColours {
  public:
   /// Of those triangles that `counts` holds for.
@@ -36,12 +36,42 @@ class NearestColours {
       const double d2 = glm::dot(off, off) + 1e-6, weight = 1.0 / (d2 * d2);
       sum += weight * colours_[i], weights += weight;
     }
-    if (weights <= 0.0) return glm::u8vec3(128);
-    return glm::u8vec3(glm::clamp(glm::round(sum / weights), 0.0, 255.0));
+    if (weights <= 0.0) return no_colour;
+    const glm::u8vec3 colour(glm::clamp(glm::round(sum / weights), 0.0, 255.0));
+    return colour == no_colour ? colour + glm::u8vec3(0, 0, 1) : colour;
   }
 
  private:
   std::vector<glm::dvec3> points_, colours_;
+};
+
+/// Floors, ground and flat roofs, as against walls.
+bool is_level(const LayerTriangle& triangle) {
+  const auto& c = triangle.corners;
+  const glm::dvec3 across = glm::cross(c[1] - c[0], c[2] - c[0]);
+  constexpr double min_cosine = 0.7;  // of the angle between a level surface's normal and the vertical
+  return std::abs(across.z) > min_cosine * glm::length(across);
+}
+
+/// What surfaces that are nowhere seen are coloured from.
+class ColoursOfKinds {
+ public:
+  ColoursOfKinds(const LayerModel& model, const TriangleColours& colours)
+      : level_(model, colours, [&](const LayerTriangle& t) { return is_near(model, t) && is_level(t); }),
+        upright_(model, colours, [&](const LayerTriangle& t) { return is_near(model, t) && !is_level(t); }),
+        all_(model, colours, [](const LayerTriangle&) { return true; }) {}
+
+  const NearestColours& of(const LayerTriangle& triangle) const {
+    const NearestColours& kind = is_level(triangle) ? level_ : upright_;
+    return kind.empty() ? all_ : kind;
+  }
+
+ private:
+  /// No wall looks like the sky.
+  static bool is_near(const LayerModel& model, const LayerTriangle& triangle) {
+    return !model.objects[triangle.object].is_backdrop;
+  }
+  NearestColours level_, upright_, all_;
 };
 
 }  // namespace
@@ -73,9 +103,9 @@ std::vector<std::uint32_t> by_surface(const LayerModel& model) {
 
 void add_surfaces(const PlaceLayers& place, const TriangleColours& colours, PackedFacade& facade) {
   for (const LayerObject& object : place.model.objects) facade.surfaces.push_back(object.name);
-  // A surface goes on as it is elsewhere: the lawn green, the sky bright; one that is nowhere seen as the
-  // place.
-  const NearestColours of_place(place.model, colours, [](const LayerTriangle&) { return true; });
+  // A surface goes on as it is elsewhere: the lawn green, the sky bright; one that is nowhere seen as those
+  // that lie as it does.
+  const ColoursOfKinds of_kinds(place.model, colours);
   std::vector<NearestColours> of_surface;
   for (std::uint32_t object = 0; object < place.model.objects.size(); ++object)
     of_surface.emplace_back(place.model, colours,
@@ -88,11 +118,12 @@ void add_surfaces(const PlaceLayers& place, const TriangleColours& colours, Pack
       [&](std::size_t i) {
         const LayerTriangle& triangle = place.model.triangles[order[i]];
         facade.surface_of_triangle[i] = triangle.object;
+        const bool is_refused = place.surfaces[triangle.object] == Filling::refused;
         const NearestColours& own = of_surface[triangle.object];
-        const NearestColours& nearest = own.empty() ? of_place : own;
+        const NearestColours& nearest = own.empty() ? of_kinds.of(triangle) : own;
         for (std::size_t k = 0; k < 3; ++k) {
           facade.corners[3 * i + k] = glm::vec3(triangle.corners[k]);
-          facade.fallback[3 * i + k] = nearest.at(triangle.corners[k]);
+          facade.fallback[3 * i + k] = is_refused ? no_colour : nearest.at(triangle.corners[k]);
         }
       },
       64);

@@ -1,4 +1,5 @@
-// The colours that surfaces take where no photograph shows them.
+// The colours that surfaces take where no photograph shows them: the last step of filling. Like all of it
+// they are proposals, which can be refused for each surface (PlaceLayers::surfaces).
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,10 @@ void add_colours(const PlaceLayers& place, std::size_t photo, const ItemBuffer& 
 /// The model's triangles, those of a surface together.
 std::vector<std::uint32_t> by_surface(const LayerModel& model);
 
-/// Adds the model's surfaces, each corner with the colour that it takes where nothing is known.
+/// Adds the model's surfaces, each corner with the colour that is proposed for what no photograph shows: the
+/// mean of the nearest known triangles of its surface; of a surface that is nowhere seen, of all triangles
+/// that lie as it does (level or upright), and if there are none, of all. Where the proposal is refused they
+/// have no_colour.
 void add_surfaces(const PlaceLayers& place, const TriangleColours& colours, PackedFacade& facade);
 
 }  // namespace parvis::facades

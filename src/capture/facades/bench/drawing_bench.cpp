@@ -164,6 +164,12 @@ Status measure_drawing(std::shared_ptr<const PackedFacade> facade, const Camera&
   report.add("draw_shown_percent", shown_percent(ours->picture(), empty), shown);
   report.add_control("draw_shown_percent_control_hidden", shown_percent(nothing->picture(), empty), shown);
   report.add("draw_shown_percent_plain_texture", plain_percent);
+  // Proposed colours alone would be fast, too: what is timed has to show photographs.
+  const ImageF bare_picture = bare_colours->picture();
+  const Target photographs{0.9 * plain_percent, true};
+  report.add("draw_photographs_percent", shown_percent(ours->picture(), bare_picture), photographs);
+  report.add_control("draw_photographs_percent_control_none", shown_percent(bare_picture, bare_picture),
+                     photographs);
   return Done{};
 }
 
