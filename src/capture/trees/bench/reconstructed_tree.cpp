@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 
 #include "capture/trees/sample_trees.h"
 #include "capture/trees/shown_tree.h"
@@ -65,17 +64,15 @@ CaptureOptions truth_options(const BenchCaptureSize& size) {
   return options;
 }
 
-double ReconstructedTree::seconds() const {
-  return std::accumulate(times.begin(), times.end(), 0.0,
-                         [](double sum, const StepTime& time) { return sum + time.seconds; });
-}
-
 Result<ReconstructedTree> reconstructed_tree(const SampleCapture& capture, const BenchCaptureSize& size) {
   const tbb::global_control two_cores(tbb::global_control::max_allowed_parallelism, timed_threads);
+  Clock whole, clock;
   Result<Reconstruction> found = reconstruct(capture.views, size.options);
   if (!found) return found.errors();
-  ReconstructedTree made{std::move(found->volume), {}, std::move(found->times), 0.0, std::move(found->notes)};
-  Clock clock;
+  ReconstructedTree made;
+  made.volume = std::move(found->volume), made.times = std::move(found->times);
+  made.notes = std::move(found->notes);
+  clock.lap();
   const BillboardTree tree = textured(made.volume, capture.views, {});
   made.times.push_back({"textures", clock.lap()});
   const std::filesystem::path file =
@@ -90,6 +87,7 @@ Result<ReconstructedTree> reconstructed_tree(const SampleCapture& capture, const
   if (!read) return read.errors();
   made.levels = std::make_shared<const TreeLevels>(levels_of(*std::move(read)));
   made.times.push_back({"levels", clock.lap()});
+  made.seconds = whole.lap();
   made.megabytes = double(*bytes) * 1e-6;
   return made;
 }

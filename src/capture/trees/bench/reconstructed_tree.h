@@ -44,10 +44,8 @@ struct ReconstructedTree {
   std::shared_ptr<const TreeLevels> levels;  ///< as read back from the file
   std::vector<StepTime> times;               ///< of all steps from photographs to levels of detail
   double megabytes = 0.0;                    ///< of the file
+  double seconds = 0.0;                      ///< of the wall clock, over all of them
   std::vector<std::string> notes;            ///< per step
-
-  /// Of all steps.
-  double seconds() const;
 };
 /// All steps from views to a tree that can be drawn, on two cores.
 Result<ReconstructedTree> reconstructed_tree(const SampleCapture& capture, const BenchCaptureSize& size);

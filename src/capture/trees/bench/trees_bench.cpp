@@ -9,22 +9,15 @@
 namespace parvis::bench {
 namespace {
 
-trees::FigureSink sink_of(Report& report) {
-  return {[&](const std::string& key, double value) { report.add(key, value); },
-          [&](const std::string& row) { report.note(row); },
-          [&](const std::string& key, const std::string& why) { report.skip(key, why); }};
-}
-
 Status measure(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   report.note("machine: " + gl::driver_name());
-  const trees::FigureSink sink = sink_of(report);
   const trees::FigureOptions options{setup.is_quick};
-  if (Status status = trees::measure_reconstruction(options, sink); !status) return status;
-  if (Status status = trees::measure_display(options, sink); !status) return status;
-  if (Status status = trees::measure_maize(options, sink); !status) return status;
-  return trees::measure_distribution(options, std::filesystem::read_symlink("/proc/self/exe"), sink);
+  if (Status status = trees::measure_reconstruction(options, report); !status) return status;
+  if (Status status = trees::measure_display(options, report); !status) return status;
+  if (Status status = trees::measure_maize(options, report); !status) return status;
+  return trees::measure_distribution(options, std::filesystem::read_symlink("/proc/self/exe"), report);
 }
 
 /// The display alone: a part of `trees`.
@@ -32,14 +25,14 @@ Status measure_wood(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
   report.note("machine: " + gl::driver_name());
-  return trees::measure_display({setup.is_quick}, sink_of(report));
+  return trees::measure_display({setup.is_quick}, report);
 }
 
 /// The maize alone: a part of `trees`.
 Status measure_plant(const BenchSetup& setup, Report& report) {
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  return trees::measure_maize({setup.is_quick}, sink_of(report));
+  return trees::measure_maize({setup.is_quick}, report);
 }
 
 }  // namespace
