@@ -172,8 +172,9 @@ Status texture(const TextureArguments& arguments) {
   std::optional<trees::TrunkShape> trunk;
   if (arguments.has_trunk) {
     const trees::Organs organs = trees::organs_of(*volume);
-    Result<trees::TrunkShape> found = trees::trunk_shape(organs.trunk, *views);
+    Result<trees::TrunkShape> found = trees::trunk_shape(organs, *views);
     if (!found) return found.errors();
+    trees::erase_trunk(*views, *volume, organs);
     trunk = *std::move(found), *volume = trees::without(*volume, organs, trees::Organ::trunk);
   }
   const trees::Checkpoint checkpoint = checkpoint_of(arguments.output);

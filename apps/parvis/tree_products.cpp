@@ -39,7 +39,7 @@ Status organs(const OrgansArguments& arguments) {
     Result<std::vector<trees::TreeView>> views = trees::read_capture(arguments.capture);
     if (!views) return views.errors();
     for (const std::string& note : trees::leave_out_inconsistent(*views, false)) fmt::print("{}\n", note);
-    const Result<trees::TrunkShape> trunk = trees::trunk_shape(found.trunk, *views);
+    const Result<trees::TrunkShape> trunk = trees::trunk_shape(found, *views);
     if (!trunk) return trunk.errors();
     if (Status status = scene::write_gltf(arguments.trunk, trees::model_of(*trunk)); !status) return status;
   }

@@ -262,7 +262,7 @@ float cutoff_by_held_out_error(const CellGrid& grid, std::span<const TreeView> v
                                OpacityOptions options) {
   std::vector<TreeView> used, held_out;
   for (std::size_t i = 0; i < views.size(); ++i) (i % 5 == 2 ? held_out : used).push_back(views[i]);
-  options.cutoff.reset(), options.processes = {};
+  options.cutoff.reset();
   const Opacities found = estimate_opacity(grid, used, silhouettes(used), options);
   const float chord_m = mean_chord_m(grid.cell_size_m());
   float best = 1.0f;

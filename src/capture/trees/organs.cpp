@@ -8,6 +8,7 @@
 
 #include "base/colour.h"
 #include "base/parallel.h"
+#include "capture/trees/bark_texture.h"
 
 namespace parvis::trees {
 namespace {
@@ -22,11 +23,6 @@ constexpr float search_radii = 1.7f;         // round the axis, in radii of the 
 constexpr float min_filled = 0.35f;          // of a disc's area: less is no trunk
 constexpr float max_widening = 1.06f;        // of a ring over the narrowest below
 constexpr int lean_rings = 4;                // that predict where the next one is
-constexpr int texture_width = 256, texels_per_ring = 8, max_texture_height = 2048;
-constexpr int min_wood_alpha = 250;  // of a pixel that shows no background
-constexpr float min_cosine = 0.2f;   // between the bark's normal and the direction to a camera
-
-float log_ratio(glm::vec3 colour) { return std::log((colour.y + 0.004f) / (colour.x + 0.004f)); }
 
 /// The threshold between two classes by Otsu 1979; none where they are too alike.
 std::optional<float> threshold_of(const TreeVolume& volume) {
@@ -119,50 +115,11 @@ Trunk trunk_of(const TreeVolume& volume, float leaf_threshold) {
   return trunk;
 }
 
-/// What the photographs show of a point of the bark: linear light; alpha 0 where none sees it.
-glm::vec4 bark_at(glm::vec3 point, glm::vec3 normal, std::span<const TreeView> views) {
-  glm::vec4 sum(0.0f);
-  for (const TreeView& view : views) {
-    const float cosine = glm::dot(normal, glm::normalize(view.camera.position_in_world - point));
-    if (cosine < min_cosine) continue;
-    const glm::vec3 seen = view.camera.project(point);
-    const glm::ivec2 pixel(glm::floor(glm::vec2(seen)));
-    if (seen.z <= 0.0f || pixel.x < 0 || pixel.y < 0 || pixel.x >= view.picture.width ||
-        pixel.y >= view.picture.height)
-      continue;
-    const std::uint8_t* p = view.picture.at(pixel.x, pixel.y);
-    if (p[3] < min_wood_alpha) continue;
-    // So that the most direct view dominates without an edge where another takes over.
-    const float weight = std::pow(cosine, 16.0f);
-    sum +=
-        weight * glm::vec4(linear_from_srgb(glm::vec3(float(p[0]), float(p[1]), float(p[2])) / 255.0f), 1.0f);
-  }
-  return sum.w > 1e-6f ? glm::vec4(glm::vec3(sum) / sum.w, 1.0f) : glm::vec4(0.0f);
-}
-
-Image8 bark_texture(const Trunk& trunk, std::span<const TreeView> views) {
-  const int height = std::min(max_texture_height, texels_per_ring * int(trunk.rings.size()));
-  Image8 picture(texture_width, height, 4, 255);
-  const float low = trunk.rings.front().centre.z, high = trunk.rings.back().centre.z;
-  std::vector<glm::vec4> texels(std::size_t(texture_width) * std::size_t(height));
-  parallel_for(std::size_t(height), [&](std::size_t row) {
-    const Trunk::Ring ring = trunk.ring_at(glm::mix(high, low, (float(row) + 0.5f) / float(height)));
-    for (int x = 0; x < texture_width; ++x) {
-      const float turn = 6.2831853f * (float(x) + 0.5f) / texture_width;
-      const glm::vec3 normal(std::cos(turn), std::sin(turn), 0.0f);
-      texels[row * texture_width + std::size_t(x)] =
-          bark_at(ring.centre + ring.radius_m * normal, normal, views);
-    }
-  });
-  glm::vec4 mean(0.0f);
-  for (const glm::vec4& texel : texels) mean += texel;
-  const glm::vec3 unseen = mean.w > 0.0f ? glm::vec3(mean) / mean.w : glm::vec3(0.1f);
-  for (std::size_t i = 0; i < texels.size(); ++i) {
-    const glm::vec3 srgb = srgb_from_linear(texels[i].w > 0.0f ? glm::vec3(texels[i]) : unseen);
-    for (int c = 0; c < 3; ++c)
-      picture.pixels[4 * i + std::size_t(c)] = std::uint8_t(std::lround(255.0f * srgb[c]));
-  }
-  return picture;
+/// The trunk half a cell wider: a cell at its edge is partly of it.
+Trunk with_edge(Trunk trunk, const TreeVolume& volume) {
+  const glm::vec3 size = volume.grid.cell_size_m();
+  for (Trunk::Ring& ring : trunk.rings) ring.radius_m += 0.5f * std::max(size.x, size.y);
+  return trunk;
 }
 
 }  // namespace
@@ -180,12 +137,10 @@ Organs organs_of(const TreeVolume& volume) {
   Organs organs;
   organs.leaf_threshold = std::max(threshold_of(volume).value_or(leaf_log_ratio), min_leaf_log_ratio);
   organs.trunk = trunk_of(volume, organs.leaf_threshold);
-  const glm::vec3 size = volume.grid.cell_size_m();
-  Trunk with_edge = organs.trunk;  // a cell at the trunk's edge is partly of it
-  for (Trunk::Ring& ring : with_edge.rings) ring.radius_m += 0.5f * std::max(size.x, size.y);
+  const Trunk trunk = with_edge(organs.trunk, volume);
   organs.of_cell.reserve(volume.grid.size());
   for (std::size_t i = 0; i < volume.grid.size(); ++i)
-    organs.of_cell.push_back(with_edge.contains(volume.grid.centre(i))             ? Organ::trunk
+    organs.of_cell.push_back(trunk.contains(volume.grid.centre(i))                 ? Organ::trunk
                              : log_ratio(volume.colour[i]) > organs.leaf_threshold ? Organ::leaf
                                                                                    : Organ::branch);
   return organs;
@@ -203,9 +158,40 @@ TreeVolume without(const TreeVolume& volume, const Organs& organs, Organ organ) 
   return result;
 }
 
-Result<TrunkShape> trunk_shape(const Trunk& trunk, std::span<const TreeView> views) {
-  if (trunk.rings.size() < 2) return error("no trunk was found: its crown reaches the ground");
-  return TrunkShape{trunk, bark_texture(trunk, views)};
+void erase_trunk(std::vector<TreeView>& views, const TreeVolume& volume, const Organs& organs) {
+  const Trunk trunk = with_edge(organs.trunk, volume);
+  if (trunk.rings.size() < 2) return;
+  parallel_for(views.size(), [&](std::size_t i) {
+    TreeView& view = views[i];
+    const auto erase_disc = [&](const Trunk::Ring& ring) {
+      const glm::vec3 seen = view.camera.project(ring.centre);
+      if (seen.z <= 0.0f) return;
+      const float radius = view.camera.focal.x * ring.radius_m / seen.z + 1.0f;
+      const glm::ivec2 size(view.picture.width, view.picture.height);
+      const glm::ivec2 low =
+          glm::clamp(glm::ivec2(glm::floor(glm::vec2(seen) - radius)), glm::ivec2(0), size);
+      const glm::ivec2 high =
+          glm::clamp(glm::ivec2(glm::ceil(glm::vec2(seen) + radius)), glm::ivec2(0), size);
+      for (int y = low.y; y < high.y; ++y)
+        for (int x = low.x; x < high.x; ++x) {
+          std::uint8_t* p = view.picture.at(x, y);
+          if (p[3] == 0 || glm::distance(glm::vec2(float(x), float(y)) + 0.5f, glm::vec2(seen)) > radius)
+            continue;
+          const glm::vec3 colour =
+              linear_from_srgb(glm::vec3(float(p[0]), float(p[1]), float(p[2])) / 255.0f);
+          if (log_ratio(colour) <= organs.leaf_threshold) p[3] = 0;
+        }
+    };
+    // Discs so close to each other that their outline is the trunk's.
+    const float low = trunk.rings.front().centre.z, high = trunk.rings.back().centre.z;
+    const int discs = 2 * std::max(view.picture.height, 1);
+    for (int k = 0; k <= discs; ++k) erase_disc(trunk.ring_at(glm::mix(low, high, float(k) / float(discs))));
+  });
+}
+
+Result<TrunkShape> trunk_shape(const Organs& organs, std::span<const TreeView> views) {
+  if (organs.trunk.rings.size() < 2) return error("no trunk was found: its crown reaches the ground");
+  return TrunkShape{organs.trunk, bark_texture(organs.trunk, views, organs.leaf_threshold)};
 }
 
 }  // namespace parvis::trees

@@ -33,8 +33,12 @@ Organs organs_of(const TreeVolume& volume);
 /// The cells that are of no such organ.
 TreeVolume without(const TreeVolume& volume, const Organs& organs, Organ organ);
 
-/// The trunk with the photographs as its bark: each texel shows what the cameras see that look at it most
-/// directly and see no background there. Errors: there are fewer than two rings.
-Result<TrunkShape> trunk_shape(const Trunk& trunk, std::span<const TreeView> views);
+/// Makes the trunk transparent in the photographs: what lies within its outline, half a cell of the volume
+/// and a pixel round it, and is no leaf. Textures of such photographs leave it to the geometry; else
+/// billboards beside the trunk, through which photographs show it, would hide it behind a picture of itself.
+void erase_trunk(std::vector<TreeView>& views, const TreeVolume& volume, const Organs& organs);
+
+/// The trunk with the photographs as its bark (bark_texture.h). Errors: there are fewer than two rings.
+Result<TrunkShape> trunk_shape(const Organs& organs, std::span<const TreeView> views);
 
 }  // namespace parvis::trees

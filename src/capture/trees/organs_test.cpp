@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "capture/trees/test_volume.h"
 
 namespace parvis::trees {
@@ -75,7 +77,7 @@ TEST(Organs, ACrownOnTheGroundHasNoTrunk) {
   for (glm::vec3& colour : volume.colour) colour = green;
   const Organs organs = organs_of(volume);
   EXPECT_TRUE(organs.trunk.rings.empty());
-  EXPECT_FALSE(trunk_shape(organs.trunk, {}));
+  EXPECT_FALSE(trunk_shape(organs, {}));
 }
 
 TEST(Organs, WithoutTheTrunkTheRestIsLeft) {
@@ -88,25 +90,55 @@ TEST(Organs, WithoutTheTrunkTheRestIsLeft) {
 }
 
 TEST(Organs, TheTrunkShowsItsPhotographs) {
-  // Photographs that are red from the east and blue from all other sides.
-  const Trunk trunk{{{{0, 0, 0.6f}, 0.3f}, {{0, 0, 1.0f}, 0.3f}, {{0, 0, 1.4f}, 0.25f}}};
+  // Photographs that are red from the east, green as leaves from the north and blue from all other sides.
+  Organs organs;
+  organs.leaf_threshold = 0.12f;
+  organs.trunk = {{{{0, 0, 0.6f}, 0.3f}, {{0, 0, 1.0f}, 0.3f}, {{0, 0, 1.4f}, 0.25f}}};
   std::vector<TreeView> views = TestVolume().ring(8, 64);
   for (TreeView& view : views) {
     const glm::vec3 eye = glm::normalize(view.camera.position_in_world);
-    for (std::size_t i = 0; i < view.picture.pixels.size(); i += 4) {
-      view.picture.pixels[i] = eye.x > 0.8f ? 220 : 20, view.picture.pixels[i + 1] = 30;
-      view.picture.pixels[i + 2] = eye.x > 0.8f ? 20 : 220, view.picture.pixels[i + 3] = 255;
-    }
+    const int side = eye.x > 0.8f ? 0 : eye.y > 0.8f ? 1 : 2;
+    for (std::size_t i = 0; i < view.picture.pixels.size(); ++i)
+      view.picture.pixels[i] = i % 4 == 3 ? 255 : int(i % 4) == side ? 220 : 20;
   }
-  const Result<TrunkShape> shape = trunk_shape(trunk, views);
+  const Result<TrunkShape> shape = trunk_shape(organs, views);
   ASSERT_TRUE(shape) << to_string(shape.errors());
   const Image8& bark_picture = shape->bark;
   const int middle = bark_picture.height / 2;
   EXPECT_GT(bark_picture.at(0, middle)[0], 180) << "texture coordinate 0 is in the east";
   EXPECT_GT(bark_picture.at(bark_picture.width / 2, middle)[2], 180);
+  EXPECT_LT(bark_picture.at(bark_picture.width / 4, middle)[1], 40) << "no bark is as green as leaves";
   const scene::Model model = model_of(*shape);
   for (const glm::vec3& position : model.parts.front().mesh.positions)
     EXPECT_LE(glm::length(glm::vec2(position)), 0.301f);
+}
+
+TEST(Organs, AnErasedTrunkLeavesItsLeavesAndWhatIsBesideIt) {
+  const TreeVolume volume = column_and_ball(green);
+  const Organs organs = organs_of(volume);
+  std::vector<TreeView> views = TestVolume().ring(8, 64);
+  const glm::vec3 of_trunk(0.0f, 0.0f, 0.5f);
+  for (TreeView& view : views)
+    for (int y = 0; y < view.picture.height; ++y)
+      for (int x = 0; x < view.picture.width; ++x) {
+        // Bark all over, but for leaves in the picture's upper half.
+        const bool is_leaf = float(y) < view.camera.project(of_trunk).y - 3.0f;
+        const std::uint8_t pixel[]{std::uint8_t(is_leaf ? 40 : 120), std::uint8_t(is_leaf ? 120 : 90), 40,
+                                   255};
+        std::ranges::copy(pixel, view.picture.at(x, y));
+      }
+  erase_trunk(views, volume, organs);
+  for (const TreeView& view : views) {
+    const auto alpha_at = [&](glm::vec3 point) {
+      const glm::ivec2 pixel(glm::floor(glm::vec2(view.camera.project(point))));
+      return int(view.picture.at(pixel.x, pixel.y)[3]);
+    };
+    EXPECT_EQ(alpha_at(of_trunk), 0);
+    const glm::vec3 aside = glm::normalize(glm::cross(view.camera.position_in_world, glm::vec3(0, 0, 1)));
+    EXPECT_EQ(alpha_at(of_trunk + 0.05f * aside), 0) << "to its edge";
+    EXPECT_EQ(alpha_at(of_trunk + 0.2f * aside), 255) << "beside it";
+    EXPECT_EQ(alpha_at({0.0f, 0.0f, 0.7f}), 255) << "a leaf before it";
+  }
 }
 
 }  // namespace

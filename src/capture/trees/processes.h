@@ -1,6 +1,8 @@
 // Processes that reconstruct one tree together (MPI): each casts the rays of its share of the pixels, and
-// what they gather is added up once per iteration. All have all photographs and end with the same cells:
-// their sums are exact (exact_sum.h), so that they are those of one process.
+// what they gather is added up once per iteration. All read all photographs, for a cell of the hull is
+// compared with each; of the linear light that the fit needs, which is most of the memory, each holds its own
+// rows alone (fit_rows.h). All end with the same cells: their sums are exact (exact_sum.h), so that they are
+// those of one process.
 #pragma once
 
 #include <functional>

@@ -56,6 +56,7 @@ class Work {
          fmt::format("hull of {} photographs, {} of {}^3 cells", views.size(), grid->size(), grid->side()));
     if (Status status = choose_cutoff(*grid, views); !status) return status.errors();
     if (Status status = estimate(*grid, views, masks); !status) return status.errors();
+    std::exchange(masks, {});  // they take as much memory as the photographs
     if (Status status = fit_colours(*std::move(grid), views); !status) return status.errors();
     if (options_.fine_epochs > 0)
       if (Status status = fit_finer(views); !status) return status.errors();
@@ -90,6 +91,7 @@ class Work {
   OpacityOptions cutoff_estimate() const {
     OpacityOptions opacity = options_.opacity;
     opacity.iterations = std::min(opacity.iterations, cutoff_iterations);
+    opacity.processes = options_.processes;
     return opacity;
   }
 
@@ -167,7 +169,8 @@ class Work {
     if (found_.colours) {
       result_.volume = std::move(found_.colours->volume), state = std::move(found_.colours->state);
     } else {
-      result_.volume = coloured(std::move(grid), result_.opacities.extinction_per_m, views);
+      result_.volume =
+          coloured(std::move(grid), result_.opacities.extinction_per_m, views, options_.processes);
       progress_.advance(all_.size());
     }
     const std::size_t done = state.steps;

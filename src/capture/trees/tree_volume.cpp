@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "capture/trees/exact_sum.h"
+#include "capture/trees/fit_rows.h"
 
 namespace parvis::trees {
 namespace {
@@ -24,12 +25,6 @@ constexpr int term_bits = 30;        // exact_sum.h: gradients of up to 8e6
 const glm::vec3 unseen_colour(0.03f, 0.05f, 0.02f);  // of cells that no photograph shows: a leaf in the shade
 constexpr float beta1 = 0.9f, beta2 = 0.98f, adam_epsilon = 1e-7f;
 
-/// A photograph, premultiplied linear light, at the resolution of the fit.
-struct Target {
-  Pinhole camera;
-  ImageF rgba;
-};
-
 constexpr float min_light = 0.01f;  // below it the slope of sRGB is taken as there
 constexpr float min_root = 0.03f;   // of a colour's light: from 0 no step leads away
 
@@ -38,24 +33,6 @@ constexpr float min_root = 0.03f;   // of a colour's light: from 0 no step leads
 glm::vec4 display_slope(glm::vec4 rgba) {
   const glm::vec3 light = glm::max(glm::vec3(rgba) + 0.5f * (1.0f - rgba.w), min_light);
   return glm::vec4((1.055f / 2.4f) * glm::pow(light, glm::vec3(1.0f / 2.4f - 1.0f)), 1.0f);
-}
-
-Target target_of(const TreeView& view, int factor) {
-  Target result{reduced(view.camera, factor), {}};
-  const ImageF picture = linear_from_srgb8(view.picture);
-  result.rgba = ImageF(result.camera.width, result.camera.height, 4);
-  for (int y = 0; y < result.rgba.height; ++y)
-    for (int x = 0; x < result.rgba.width; ++x) {
-      glm::vec4 sum(0.0f);
-      int count = 0;
-      for (int v = y * factor; v < std::min((y + 1) * factor, picture.height); ++v)
-        for (int u = x * factor; u < std::min((x + 1) * factor, picture.width); ++u, ++count) {
-          const float* p = picture.at(u, v);
-          sum += glm::vec4(p[3] * glm::vec3(p[0], p[1], p[2]), p[3]);
-        }
-      for (int c = 0; c < 4; ++c) result.rgba.at(x, y)[c] = sum[c] / float(count);
-    }
-  return result;
 }
 
 /// A cell on a ray.
@@ -161,20 +138,19 @@ class VolumeFit {
     state.cell_steps.resize(count, 0);
   }
 
-  /// Every `parts`-th row from `first` on; returns the sum of the pixels' squared errors, of all processes.
-  double gather(const Target& target, int first, int parts) {
-    first += options_.processes.rank * parts, parts *= options_.processes.count;
+  /// All rows, those of this process; returns the sum of the pixels' squared errors, of all processes.
+  double gather(const FitRows& rows) {
     tbb::enumerable_thread_specific<double> errors(0.0);
     parallel_for(
-        std::size_t(std::max(target.rgba.height - first + parts - 1, 0) / parts),
+        std::size_t(rows.rgba.height),
         [&](std::size_t i) {
-          const int row = first + int(i) * parts;
           std::vector<Crossing>& crossings = rays_.local();
           Gradients& gradients = gradients_.local();
           double& error = errors.local();
-          for (int x = 0; x < target.rgba.width; ++x) {
-            collect(volume_, target.camera.ray({float(x) + 0.5f, float(row) + 0.5f}), crossings);
-            const float* p = target.rgba.at(x, row);
+          const float y = float(rows.row(int(i))) + 0.5f;
+          for (int x = 0; x < rows.rgba.width; ++x) {
+            collect(volume_, rows.camera.ray({float(x) + 0.5f, y}), crossings);
+            const float* p = rows.rgba.at(x, int(i));
             error += add_pixel(volume_, crossings, {p[0], p[1], p[2], p[3]}, gradients);
           }
         },
@@ -231,12 +207,15 @@ float TreeVolume::alpha(std::size_t cell) const {
   return 1.0f - std::exp(-extinction_per_m[cell] * mean_chord_m(grid.cell_size_m()));
 }
 
-TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::span<const TreeView> views) {
+TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::span<const TreeView> views,
+                    const Processes& processes) {
   TreeVolume volume{std::move(grid), std::move(extinction_per_m), {}};
   tbb::enumerable_thread_specific<Gradients> partial(
       [&] { return Gradients(volume.grid.size(), glm::dvec4(0.0)); });
   tbb::enumerable_thread_specific<std::vector<Crossing>> rays;
-  for (const TreeView& view : views)
+  for (std::size_t photograph = 0; photograph < views.size(); ++photograph) {
+    if (!processes.has(photograph)) continue;
+    const TreeView& view = views[photograph];
     parallel_for(
         std::size_t(view.camera.height),
         [&](std::size_t row) {
@@ -254,9 +233,11 @@ TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::spa
           }
         },
         rows_per_task);
+  }
   Gradients all(volume.grid.size(), glm::dvec4(0.0));
   for (const Gradients& sums : partial)
     for (std::size_t i = 0; i < all.size(); ++i) all[i] += sums[i];
+  if (processes.sum) processes.sum({&all.front().x, 4 * all.size()});
   for (const glm::dvec4& sum : all)
     volume.colour.push_back(sum.w > 0.0 ? glm::vec3(glm::dvec3(sum) / sum.w) : unseen_colour);
   return volume;
@@ -271,11 +252,11 @@ std::vector<double> fit_volume(TreeVolume& volume, std::span<const TreeView> vie
 
 void fit_volume(TreeVolume& volume, std::span<const TreeView> views, const FitOptions& options,
                 FitState& state) {
-  std::vector<Target> targets(views.size());
-  parallel_for(views.size(),
-               [&](std::size_t i) { targets[i] = target_of(views[i], options.picture_factor); });
-  const int parts = std::max(options.steps_per_view, 1);
-  std::vector<std::size_t> order(views.size() * std::size_t(parts));
+  std::vector<FitRows> photographs(views.size());
+  parallel_for(views.size(), [&](std::size_t i) {
+    photographs[i] = FitRows::of(views[i], options.picture_factor, options.processes);
+  });
+  std::vector<std::size_t> order(views.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   Random random(options.seed, 500);
   VolumeFit fit(volume, options, state);
@@ -285,10 +266,9 @@ void fit_volume(TreeVolume& volume, std::span<const TreeView> views, const FitOp
       for (std::size_t k = order.size(); k > 1; --k)
         std::swap(order[k - 1], order[std::size_t(random.index(int(k)))]);
     if (i < state.steps) continue;  // done before: the order alone is followed
-    const std::size_t step = order[i % order.size()];
-    const Target& target = targets[step / std::size_t(parts)];
-    state.error_sum += fit.gather(target, int(step % std::size_t(parts)), parts);
-    state.value_sum += double(target.rgba.pixels.size()) / double(parts);
+    const FitRows& rows = photographs[order[i % order.size()]];
+    state.error_sum += fit.gather(rows);
+    state.value_sum += 4.0 * double(rows.camera.width) * double(rows.camera.height);
     fit.step(1.0f / (1.0f + rate_decay * float(epoch)));
     ++state.steps;
     if (state.steps % order.size() == 0) {

@@ -42,24 +42,22 @@ struct FitOptions {
   int epochs = 10;                ///< passes over all photographs
   float colour_rate = 0.04f;      ///< Adam's step, of the square root of the light
   float extinction_rate = 0.12f;  ///< Adam's step, of the logarithm of the extinction
-  int steps_per_view = 1;         ///< steps per photograph and pass, each with as great a share of its rows
   float smoothing = 0.0f;         ///< after each pass: share of the neighbours' mean in each cell
   int picture_factor = 1;         ///< photographs are reduced so many times
   std::uint64_t seed = 1;         ///< of the photographs' order
-  Processes processes = {};       ///< each takes its share of the rows
+  Processes processes = {};       ///< each holds its share of the rows and casts their rays
   /// Called after each step, when the volume and the state belong together; where it returns false the fit
   /// ends.
   std::function<bool(const FitState&)> after_step = {};
 
   /// How many steps a fit to so many photographs has.
-  std::size_t steps(std::size_t photographs) const {
-    return std::size_t(std::max(epochs, 0)) * photographs * std::size_t(std::max(steps_per_view, 1));
-  }
+  std::size_t steps(std::size_t photographs) const { return std::size_t(std::max(epochs, 0)) * photographs; }
 };
 
 /// Colours of an opacity estimate: for each cell the mean of the photographs' foreground, weighed by how much
-/// of it each pixel sees.
-TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::span<const TreeView> views);
+/// of it each pixel sees. Several processes each take their share of the photographs.
+TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::span<const TreeView> views,
+                    const Processes& processes = {});
 
 /// Improves extinction and colours together. Returns the root mean square error over RGBA of each epoch, as a
 /// display shows it: colours by the slope of sRGB.
