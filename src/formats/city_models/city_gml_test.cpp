@@ -308,15 +308,23 @@ std::string draped(const std::string& target, const std::string& elements) {
 }
 
 TEST(CityGml, APictureLiesWhereItsWorldFileOrItsElementsSay) {
-  const std::string in_elements =
-      "<app:preferWorldFile>false</app:preferWorldFile><app:referencePoint><gml:Point><gml:pos>80000 450000"
-      "</gml:pos></gml:Point></app:referencePoint><app:orientation>0.25 0 0 0.333333333</app:orientation>";
+  // Elements take precedence over the world file, preferWorldFile or not.
+  const auto in_elements = [](const char* point, const char* orientation) {
+    return fmt::format(
+        "<app:preferWorldFile>true</app:preferWorldFile><app:referencePoint><gml:Point><gml:pos>{}"
+        "</gml:pos></gml:Point></app:referencePoint><app:orientation>{}</app:orientation>",
+        point, orientation);
+  };
   for (const auto& [target, elements] :
-       {std::pair<std::string, std::string>{"p", ""}, {"all", ""}, {"p", in_elements}}) {
+       {std::pair<std::string, std::string>{"p", ""},
+        {"all", ""},
+        {"p", in_elements("80000 450000", "0.25 0 0 0.333333333")},
+        {"p", in_elements("80000.25 450002.75", "0.5 0 0 -0.5")}}) {  // as in a world file
     const TestFolder folder;
     ASSERT_TRUE(write_image(folder.path() / "aerial.png", Image8(8, 6, 3)));
     // Half a metre to a pixel, from the middle of the first one in the north-west.
-    if (elements.empty()) folder.write("aerial.pgw", "+0.5\n0\n0\n-0.5\n80000.25\n450002.75\n");
+    folder.write("aerial.pgw",
+                 elements.empty() ? "+0.5\n0\n0\n-0.5\n80000.25\n450002.75\n" : "1\n0\n0\n-1\n0\n0\n");
     Errors warnings;
     const Result<Model> city = read_city_gml(folder.write("a.gml", draped(target, elements)), warnings);
     ASSERT_TRUE(city) << to_string(city.errors());

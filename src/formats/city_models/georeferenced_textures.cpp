@@ -78,14 +78,18 @@ bool is_regular(const glm::dmat2& matrix) {
   return std::isfinite(area) && area > 0.0;
 }
 
-std::optional<PlanToPicture> placed_by_elements(std::string_view texture) {
-  const std::vector<double> orientation = numbers_in(first_text(texture, "orientation").value_or("")),
-                            point = numbers_in(first_text(texture, "pos").value_or(""));
-  if (orientation.size() != 4 || point.size() < 2) return std::nullopt;
-  // Row after row; the picture's own t runs upward.
-  const glm::dmat2 uv_from_plan(orientation[0], -orientation[2], orientation[1], -orientation[3]);
-  if (!is_regular(uv_from_plan)) return std::nullopt;
-  return PlanToPicture{uv_from_plan, {point[0], point[1]}, {0.0, 1.0}};
+/// Reads referencePoint and orientation, row after row.
+void read_elements(std::string_view xml, GeoreferencedTexture& texture) {
+  const std::vector<double> orientation = numbers_in(first_text(xml, "orientation").value_or("")),
+                            point = numbers_in(first_text(xml, "pos").value_or(""));
+  if (orientation.size() != 4 || point.size() < 2) return;
+  const double &a = orientation[0], &b = orientation[1], &c = orientation[2], &d = orientation[3];
+  const glm::dmat2 st_from_plan(a, c, b, d);
+  if (!is_regular(st_from_plan)) return;
+  if (glm::determinant(st_from_plan) < 0.0)
+    texture.as_world_file = {a, c, b, d, point[0], point[1]};
+  else  // the picture's own t runs upward
+    texture.placed = {glm::dmat2(a, -c, b, -d), {point[0], point[1]}, {0.0, 1.0}};
 }
 
 /// ESRI's names of the world file of a picture.
@@ -99,21 +103,25 @@ std::vector<std::string> world_files_of(const std::string& picture) {
   return names;
 }
 
-/// By its world file: the step of a column, of a row, and the middle of the first pixel.
+/// By the numbers of a world file: the step of a column, of a row, and the middle of the first pixel.
+std::optional<PlanToPicture> placed_by_numbers(const std::vector<double>& n, glm::ivec2 size_px) {
+  if (n.size() != 6) return std::nullopt;
+  const glm::dmat2 plan_from_pixels(n[0], n[1], n[2], n[3]);
+  if (!is_regular(plan_from_pixels)) return std::nullopt;
+  const glm::dvec2 pixel_uv = 1.0 / glm::dvec2(size_px);
+  glm::dmat2 uv_from_plan = glm::inverse(plan_from_pixels);
+  for (int column = 0; column < 2; ++column) uv_from_plan[column] *= pixel_uv;
+  return PlanToPicture{uv_from_plan, {n[4], n[5]}, 0.5 * pixel_uv};
+}
+
 std::optional<PlanToPicture> placed_by_world_file(const Roots& roots, const std::string& picture,
                                                   glm::ivec2 size_px) {
   for (const std::string& name : world_files_of(picture)) {
     const Result<std::filesystem::path> path = city_picture_path(roots, name);
     if (!path) continue;
     const Result<std::string> text = read_file(*path, max_world_file_bytes);
-    const std::vector<double> n = text ? numbers_in(*text) : std::vector<double>();
-    if (n.size() != 6) continue;
-    const glm::dmat2 plan_from_pixels(n[0], n[1], n[2], n[3]);
-    if (!is_regular(plan_from_pixels)) continue;
-    const glm::dvec2 pixel_uv = 1.0 / glm::dvec2(size_px);
-    glm::dmat2 uv_from_plan = glm::inverse(plan_from_pixels);
-    for (int column = 0; column < 2; ++column) uv_from_plan[column] *= pixel_uv;
-    return PlanToPicture{uv_from_plan, {n[4], n[5]}, 0.5 * pixel_uv};
+    if (!text) continue;
+    if (const auto placed = placed_by_numbers(numbers_in(*text), size_px)) return placed;
   }
   return std::nullopt;
 }
@@ -123,11 +131,12 @@ bool find_place(GeoreferencedTexture& texture, const Roots& roots) {
   if (texture.targets.empty()) return false;
   const Result<std::filesystem::path> path = city_picture_path(roots, texture.picture);
   if (!path) return false;
-  if (texture.placed && !texture.prefers_world_file) return true;
+  if (texture.placed) return true;
   const Result<Image8> picture = read_image8(*path);  // for its size, in pixels
   if (!picture) return false;
-  const auto placed = placed_by_world_file(roots, texture.picture, {picture->width, picture->height});
-  if (placed) texture.placed = placed;
+  const glm::ivec2 size_px(picture->width, picture->height);
+  texture.placed = texture.as_world_file.empty() ? placed_by_world_file(roots, texture.picture, size_px)
+                                                 : placed_by_numbers(texture.as_world_file, size_px);
   return texture.placed.has_value();
 }
 
@@ -140,9 +149,7 @@ std::vector<GeoreferencedTexture> georeferenced_textures(std::string_view xml) {
     const std::string_view text = xml.substr(at, std::min(xml.find(element, at + 1), xml.size()) - at);
     GeoreferencedTexture& texture = textures.emplace_back();
     texture.picture = first_text(text, "imageURI").value_or("");
-    const std::string_view prefers = first_text(text, "preferWorldFile").value_or("");
-    texture.prefers_world_file = prefers != "false" && prefers != "0";
-    texture.placed = placed_by_elements(text);
+    read_elements(text, texture);
     std::size_t in_text = 0;
     while (const auto target = next_text(text, "target", in_text))
       if (target->starts_with('#')) texture.targets.emplace_back(target->substr(1));

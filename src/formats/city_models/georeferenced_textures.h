@@ -27,17 +27,19 @@ struct PlanToPicture {
 struct GeoreferencedTexture {
   std::string picture;                  ///< its file
   std::vector<std::string> targets;     ///< identifiers (gml:id) of the polygons and surfaces that it covers
-  bool prefers_world_file = true;       ///< over `placed`
   std::optional<PlanToPicture> placed;  ///< by the elements referencePoint and orientation
+  /// The same elements where they hold the six numbers of a world file in its order, as some exporters write
+  /// them: their matrix mirrors, for rows of pixels run southward.
+  std::vector<double> as_world_file;
 };
 
 /// Those of a file in CityGML.
 std::vector<GeoreferencedTexture> georeferenced_textures(std::string_view xml);
 
-/// Finds out where each lies: by a world file beside its picture (aerial.jgw for aerial.jpg: ESRI's six
-/// numbers) or by its own elements. Those of which neither is there, or whose picture cannot be read, and all
-/// where the file's coordinates are no metres or feet, east first (`are_plane`), are left out with one
-/// warning at `file`.
+/// Finds out where each lies: by its own elements, which always take precedence (by CityGML's schema), or
+/// by a world file beside its picture (aerial.jgw for aerial.jpg: ESRI's six numbers). Those of which neither
+/// is there, or whose picture cannot be read, and all where the file's coordinates are no metres or feet,
+/// east first (`are_plane`), are left out with one warning at `file`.
 std::vector<GeoreferencedTexture> placed_textures(std::vector<GeoreferencedTexture> textures, bool are_plane,
                                                   const std::filesystem::path& file, Errors& warnings);
 
