@@ -68,13 +68,12 @@ void add(MethodFigures& figures, const Rephotography& judged, double share) {
   figures.covered_percent += share * judged.covered_percent;
 }
 
-/// Of the pixels of `mask`, those that layers colour, percent.
-double layered_percent(ShownColours& colours, const View& view, const Image8& mask) {
-  const std::vector<ColourSource> sources = colours.sources(view);
-  std::size_t all = 0, layered = 0;
+/// The picture with the pixels alone that layers colour. Proposed colours are not judged: baselines show
+/// nothing there.
+Image8 coloured_by_layers(Image8 shown, const std::vector<ColourSource>& sources) {
   for (std::size_t p = 0; p < sources.size(); ++p)
-    if (mask.pixels[p] > 127) ++all, layered += sources[p] == ColourSource::layers;
-  return all == 0 ? 0.0 : 100.0 * double(layered) / double(all);
+    if (sources[p] != ColourSource::layers) shown.pixels[4 * p + 3] = 0;
+  return shown;
 }
 
 /// Without any photograph: what is proposed for what no photograph shows is left.
@@ -105,11 +104,10 @@ Status judge_held_out(const std::vector<Photograph>& held_out, const LayerModel&
     const Result<View> view = view_of(held_out[i]);
     if (!view) return view.errors();
     const Image8 mask = model_mask(given, *view);
-    const Image8 shown = bytes_of(facade.view(*view));
-    Rephotography judged = rephotography(shown, truth, mask);
-    judged.covered_percent = layered_percent(colours, *view, mask);
-    add(figures.methods[0], judged, share);
-    figures.uncovered_percent += share * layered_percent(bare, *view, mask);
+    const Image8 shown = coloured_by_layers(bytes_of(facade.view(*view)), colours.sources(*view));
+    add(figures.methods[0], rephotography(shown, truth, mask), share);
+    figures.uncovered_percent +=
+        share * rephotography(coloured_by_layers(shown, bare.sources(*view)), truth, mask).covered_percent;
     if (held_out.size() > 1 && another.width == shown.width && another.height == shown.height)
       add(figures.exchanged, rephotography(shown, another, mask), share);
     for (std::size_t m = 1; m < figures.methods.size(); ++m) {
