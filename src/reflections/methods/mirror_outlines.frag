@@ -1,6 +1,6 @@
-// Drawn at the far plane over pixels that have a first mirror ray: those about which first rays are alike keep
-// the depth of their surface, so that second rays are sought of nearer surfaces alone; at all others, which
-// several surfaces may share, of any.
+// Drawn at the far plane over pixels that have a first mirror ray: those about which first rays are alike
+// keep the depth of their surface, so that second rays are sought of nearer surfaces alone; at all others,
+// which several surfaces may share, of any.
 #include "graphics/shading/octahedral.glsl"
 #include "reflections/methods/ray_difference.glsl"
 

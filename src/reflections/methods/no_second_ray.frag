@@ -1,4 +1,5 @@
-// Drawn at the far plane over what has a depth in the layer of second rays: pixels without such a ray lose it.
+// Drawn at the far plane over what has a depth in the layer of second rays: pixels without such a ray lose
+// it.
 uniform highp sampler2DArray ray_directions;
 
 void main() {
