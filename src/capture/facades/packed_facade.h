@@ -71,8 +71,8 @@ struct PackedFacade {
   std::vector<std::uint32_t> surface_of_triangle;  ///< ascending
   /// Proposed sRGB per corner, where no photograph says anything, or no_colour.
   std::vector<glm::u8vec3> fallback;
-  std::vector<glm::uvec2> lists;                   ///< per triangle: first and number of its candidates
-  std::vector<std::uint32_t> candidates;           ///< layers
+  std::vector<glm::uvec2> lists;          ///< per triangle: first and number of its candidates
+  std::vector<std::uint32_t> candidates;  ///< layers
   std::vector<PackedPhoto> photos;
   std::vector<PackedLayer> layers;
   std::vector<std::uint32_t> tiles;  ///< TileKind, and the slot above it

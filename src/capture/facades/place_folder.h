@@ -21,8 +21,8 @@
 
 namespace parvis::facades {
 
-/// The objects of a model, in world coordinates; parts of one name are one object. Ordered by name: layers are
-/// numbered and named by the order of objects, which no file format has to keep.
+/// The objects of a model, in world coordinates; parts of one name are one object. Ordered by name: layers
+/// are numbered and named by the order of objects, which no file format has to keep.
 std::vector<NamedMesh> named_meshes(const scene::Model& model);
 
 /// A place on disk with the model that its layers are made of.
