@@ -213,6 +213,8 @@ class Reader {
         coordinates_(std::move(coordinates)),
         draped_(std::move(draped)),
         max_detail_(max_detail),
+        file_(file),
+        warnings_(warnings),
         city_(file, origin(), warnings) {
     for (const GeoreferencedTexture& texture : draped_)
       for (const std::string& target : texture.targets) draped_on_.emplace(target, &texture);
@@ -221,6 +223,7 @@ class Reader {
 
   Result<Model> read() {
     for (const citygml::CityObject* object : model_.getRootCityObjects()) read_object(*object);
+    beside_pictures_.report(file_, warnings_);
     return city_.finish(object_count_);
   }
 
@@ -320,6 +323,7 @@ class Reader {
     if (drape != nullptr) surface.picture = picture_of(drape->picture, false);
     const PlanToPicture* const lies = drape != nullptr ? &*drape->placed : nullptr;
     read_ring(polygon, polygon.exteriorRing(), placement, lies, surface);
+    if (drape != nullptr) beside_pictures_.note(*drape, surface.picture_uv);
     for (const auto& hole : polygon.interiorRings()) read_ring(polygon, hole, placement, lies, surface);
     surfaces_.push_back(std::move(surface));
   }
@@ -390,7 +394,10 @@ class Reader {
   CityCoordinates coordinates_;
   std::vector<GeoreferencedTexture> draped_;
   std::unordered_map<std::string, const GeoreferencedTexture*> draped_on_;  ///< by what they lie on
+  BesidePictures beside_pictures_;
   std::optional<double> max_detail_;
+  const std::filesystem::path& file_;
+  Errors& warnings_;
   CityAssembly city_;
   std::string theme_;
   std::size_t object_count_ = 0;

@@ -343,6 +343,23 @@ TEST(CityGml, APictureLiesWhereItsWorldFileOrItsElementsSay) {
   }
 }
 
+TEST(CityGml, APictureThatLiesBesideWhatItCoversIsReported) {
+  const TestFolder folder;
+  ASSERT_TRUE(write_image(folder.path() / "aerial.png", Image8(8, 6, 3)));
+  folder.write("aerial.pgw", "0.5\n0\n0\n-0.5\n80000.25\n449999.75\n");  // south of it, to the centimetre
+  Errors warnings;
+  ASSERT_TRUE(read_city_gml(folder.write("a.gml", draped("p", "")), warnings));
+  EXPECT_NE(
+      to_string(warnings).find("a.gml: 1 of 1 polygons that a picture covers by its coordinates lie wholly "
+                               "beside it (GeoreferencedTexture: aerial.png)"),
+      std::string::npos)
+      << to_string(warnings);
+  folder.write("aerial.pgw", "0.5\n0\n0\n-0.5\n80003.25\n450000.75\n");  // an eighth of it is covered
+  warnings.clear();
+  ASSERT_TRUE(read_city_gml(folder.write("a.gml", draped("p", "")), warnings));
+  EXPECT_TRUE(warnings.empty()) << to_string(warnings);
+}
+
 TEST(CityGml, APictureWithoutAPlaceCoversNothing) {
   const TestFolder folder;
   ASSERT_TRUE(write_image(folder.path() / "aerial.png", Image8(8, 6, 3)));

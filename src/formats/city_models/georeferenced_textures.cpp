@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view element = "GeoreferencedTexture";
 constexpr std::string_view blanks = " \t\r\n";
-constexpr std::size_t max_named = 3;  // pictures that are left out
+constexpr std::size_t max_named = 3;  // pictures in one warning
 constexpr std::uint64_t max_world_file_bytes = 4096;
 
 std::string_view trimmed(std::string_view text) {
@@ -177,6 +177,27 @@ std::vector<GeoreferencedTexture> placed_textures(std::vector<GeoreferencedTextu
       "the file's own coordinates, or export them as ParameterizedTexture, with texture coordinates",
       count, fmt::join(left_out, ", ")));
   return placed;
+}
+
+void BesidePictures::note(const GeoreferencedTexture& texture, std::span<const glm::vec2> corners_uv) {
+  if (corners_uv.empty()) return;
+  ++covered_;
+  glm::vec2 low = corners_uv.front(), high = low;
+  for (const glm::vec2 uv : corners_uv) low = glm::min(low, uv), high = glm::max(high, uv);
+  if (high.x > 0.0f && high.y > 0.0f && low.x < 1.0f && low.y < 1.0f) return;
+  ++beside_;
+  if (pictures_.size() < max_named && std::ranges::find(pictures_, texture.picture) == pictures_.end())
+    pictures_.push_back(texture.picture);
+}
+
+void BesidePictures::report(const std::filesystem::path& file, Errors& warnings) const {
+  if (beside_ == 0) return;
+  warnings.push_back(
+      error_at({file.string(), 0, 0},
+               "{} of {} polygons that a picture covers by its coordinates lie wholly beside it "
+               "(GeoreferencedTexture: "
+               "{}), and show its edge alone: check its referencePoint and orientation, or its world file",
+               beside_, covered_, fmt::join(pictures_, ", ")));
 }
 
 }  // namespace parvis::scene

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,5 +43,19 @@ std::vector<GeoreferencedTexture> georeferenced_textures(std::string_view xml);
 /// east first (`are_plane`), are left out with one warning at `file`.
 std::vector<GeoreferencedTexture> placed_textures(std::vector<GeoreferencedTexture> textures, bool are_plane,
                                                   const std::filesystem::path& file, Errors& warnings);
+
+/// Polygons that lie wholly beside the picture that covers them by its coordinates, for what says where it
+/// lies is then probably meant in another way: they show nothing but an edge of the picture.
+class BesidePictures {
+ public:
+  /// Counts a polygon by the places of its corners in the picture; empty: it is not drawn.
+  void note(const GeoreferencedTexture& texture, std::span<const glm::vec2> corners_uv);
+  /// One warning at `file`, where there are any.
+  void report(const std::filesystem::path& file, Errors& warnings) const;
+
+ private:
+  std::size_t covered_ = 0, beside_ = 0;
+  std::vector<std::string> pictures_;  ///< the first few that have polygons beside them
+};
 
 }  // namespace parvis::scene
