@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "formats/terrain/ground_heights.h"
 #include "scene/roads/earthworks.h"
 #include "scene/roads/road_beds.h"
 #include "scene/roads/road_builder.h"
@@ -10,8 +11,8 @@ namespace parvis::scene {
 namespace {
 
 constexpr double raised_m = 0.05;  // of ramps, over the ground
-// The same of turns, which have the heights of the roads' middle lines beside them: as road_beds has it.
-constexpr double turn_raised_m = 2.5;
+// The same of turns, which have the heights of the roads' middle lines beside them.
+constexpr double turn_raised_m = ground_reach_m;
 
 }  // namespace
 

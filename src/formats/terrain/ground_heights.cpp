@@ -15,10 +15,8 @@ namespace {
 
 constexpr float finest_cell_m = 0.5f;
 constexpr float max_cells = 16e6f;
-constexpr float above_or_below_m = 2.5f;       // of a lane: beyond are roofs, bridges, cellars
-constexpr float above_or_below_deck_m = 0.5f;  // of a lane on a bridge: beyond are parapets
-constexpr float largest_thing_m2 = 40.0f;      // that is no ground: cars, benches, crowns, kiosks
-constexpr float steepest = 0.25f;              // of ground: what rises faster is the edge of a thing
+constexpr float largest_thing_m2 = 40.0f;  // that is no ground: cars, benches, crowns, kiosks
+constexpr float steepest = 0.25f;          // of ground: what rises faster is the edge of a thing
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 /// Whether light stops at the material: leaves and panes are no ground.
@@ -117,7 +115,7 @@ void GroundHeights::note_object(const Object& object, HeightRaster& unnamed_m) {
     const auto corner = [&](std::size_t i) {
       return glm::vec3(world_from_mesh * glm::vec4(part.mesh.positions[part.mesh.indices[i]], 1.0f));
     };
-    const float reach_m = part.object.starts_with("Bridge") ? above_or_below_deck_m : above_or_below_m;
+    const float reach_m = part.object.starts_with("Bridge") ? deck_reach_m : ground_reach_m;
     for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3)
       note_triangle(names_ground ? heights_m_ : unnamed_m, corner(i), corner(i + 1), corner(i + 2), reach_m);
   }
@@ -168,7 +166,7 @@ float GroundHeights::beside_lane(glm::vec2 point, float lane_m) const {
     const glm::ivec2 cell = first + glm::ivec2(k % 2, k / 2);
     if (!heights_m_.contains(cell.x, cell.y)) continue;
     const float height_m = heights_m_.at(cell.x, cell.y);
-    if (!(std::abs(height_m - lane_m) < above_or_below_m)) continue;  // unknown, or of another lane
+    if (!(std::abs(height_m - lane_m) < ground_reach_m)) continue;  // unknown, or of another lane
     const float weight = (k % 2 ? share.x : 1.0f - share.x) * (k / 2 ? share.y : 1.0f - share.y);
     sum += weight * height_m, weights += weight;
   }

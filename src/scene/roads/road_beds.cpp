@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "formats/terrain/city_surfaces.h"
+#include "formats/terrain/ground_heights.h"
 #include "scene/data/path.h"
 #include "scene/data/surroundings.h"
 #include "scene/roads/paving.h"
@@ -13,9 +14,8 @@
 namespace parvis::scene {
 namespace {
 
-constexpr float shoulder_m = 1.0f;  // of earth beside what is paved, so that slopes begin beyond it
-constexpr float step_m = 10.0f;     // between points of a bed
-constexpr float above_or_below_m = 2.5f, above_or_below_deck_m = 0.5f;  // of a road: as GroundHeights has it
+constexpr float shoulder_m = 1.0f;      // of earth beside what is paved, so that slopes begin beyond it
+constexpr float step_m = 10.0f;         // between points of a bed
 constexpr float lies_on_m = 0.05f;      // what lies so much higher than terrain covers it
 constexpr float below_cover_m = 0.15f;  // of terrain that other ground covers: both are drawn to centimetres
 constexpr float steepest = 0.7f;        // cosine of 45 degrees: what is steeper is no ground
@@ -87,9 +87,9 @@ class Samples {
     if (std::min({ab, bc, ca}) < 0.0f && std::max({ab, bc, ca}) > 0.0f) return;
     const float height_m = a.z - (normal.x * (p.x - a.x) + normal.y * (p.y - a.y)) / normal.z;
     const bool may_cover = ground == Ground::cover || ground == Ground::other;
-    if (may_cover && height_m > sample.position.z + above_or_below_m) sample.is_covered = true;
+    if (may_cover && height_m > sample.position.z + ground_reach_m) sample.is_covered = true;
     if (ground == Ground::cover) return;
-    const float near_m = ground == Ground::deck ? above_or_below_deck_m : above_or_below_m;
+    const float near_m = ground == Ground::deck ? deck_reach_m : ground_reach_m;
     float& known_m = ground == Ground::terrain ? sample.terrain_m : sample.other_m;
     if (std::abs(height_m - sample.position.z) < near_m && !(known_m >= height_m)) known_m = height_m;
   }
