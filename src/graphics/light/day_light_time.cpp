@@ -111,18 +111,4 @@ DaylightHours daylight_hours(PlaceAndTime day, double elevation_deg) {
   return result;
 }
 
-std::vector<SolarPosition> sun_path(PlaceAndTime day, double step_h) {
-  const DaylightHours hours = daylight_hours(day);
-  std::vector<SolarPosition> path;
-  if (hours.is_polar_night()) return path;
-  const double from = hours.rise_h.value_or(hours.noon_h - 12.0),
-               to = hours.set_h.value_or(hours.noon_h + 12.0);
-  const int steps = std::max(1, int(std::ceil((to - from) / step_h)));
-  for (int i = 0; i <= steps; ++i) {
-    day.time_of_day_h = from + (to - from) * i / steps;
-    path.push_back(sun_of(day));
-  }
-  return path;
-}
-
 }  // namespace parvis::light

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "base/result.h"
 #include "graphics/light/solar_position.h"
@@ -57,16 +56,9 @@ struct DaylightHours {
   bool is_polar_night(double elevation_deg = sunrise_elevation_deg) const {
     return !rise_h && !set_h && noon_elevation_deg < elevation_deg;
   }
-  /// True if the sun stays above the elevation all day.
-  bool is_polar_day(double elevation_deg = sunrise_elevation_deg) const {
-    return !rise_h && !set_h && noon_elevation_deg >= elevation_deg;
-  }
 };
 
 /// To within a second.
 DaylightHours daylight_hours(PlaceAndTime day, double elevation_deg = sunrise_elevation_deg);
-
-/// The sun's way over a day: a position every `step_h` hours while any part of the disc is above the horizon.
-std::vector<SolarPosition> sun_path(PlaceAndTime day, double step_h);
 
 }  // namespace parvis::light
