@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "base/sealed_file.h"
 #include "base/test_folder.h"
 #include "graphics/bounced_light/bounced_over.h"
 #include "graphics/bounced_light/room.h"
@@ -65,7 +66,16 @@ std::vector<Damage> damages() {
     file[file.size() / 2] = char(file[file.size() / 2] ^ 1);
     return file;
   };
-  return {{"is cut short", [](const std::string& file) { return file.substr(0, file.size() / 2); }},
+  const auto with_a_point_nowhere = [](const std::string& file) {  // as its checksum says, too
+    const SealedKind kind{std::string_view(file).substr(0, 8), ""};
+    Result<std::string> content = opened_sealed("", file, kind);
+    if (!content) return to_string(content.errors());
+    content->resize(content->size() - sizeof(float));
+    append_value(*content, 1e30f);
+    return sealed_bytes(kind, *content);
+  };
+  return {{"numbers that are no bounced light", with_a_point_nowhere},
+          {"is cut short", [](const std::string& file) { return file.substr(0, file.size() / 2); }},
           {"damaged", with_another_bit},
           {"is no file of bounced light", begun_by("PARVISM1")},
           {"of another version", begun_by("PARVISB0")},

@@ -45,7 +45,7 @@ std::optional<Transfer> TransferCache::read() const {
   Taker taker(*content);
   if (taker.take<std::uint64_t>() != key_) return refuse(error("{}: is of another scene", file_.string()));
   std::optional<Transfer> transfer = Transfer::from_bytes(taker.rest());
-  if (!transfer) return refuse(cut_short(file_));
+  if (!transfer) return refuse(error("{}: holds numbers that are no bounced light", file_.string()));
   return transfer;
 }
 
