@@ -941,6 +941,10 @@ class Cars(InAFolder):
 
     def write_lying_car(self):
         """A body of which the glTF has z up, not y: its script needs a copy of it."""
+        return self.write_car("lying.glb", lambda x, y, z: (x, y, z))
+
+    def write_car(self, name, placed):
+        """A body in a glTF, for which `placed` turns its corners: along x, y to its left, z up."""
         profile = [(-2, 0.2), (2, 0.2), (2, 0.8), (0.9, 0.9), (0.2, 1.4), (-1.6, 1.4), (-2, 0.9)]
         corners = [(x, y, z) for y in (-0.85, 0.85) for x, z in profile]
         count, triangles = len(profile), []
@@ -949,21 +953,33 @@ class Cars(InAFolder):
             triangles += [(i, following, count + following), (i, count + following, count + i)]
         for first in (0, count):
             triangles += [(first, first + i, first + i + 1) for i in range(1, count - 1)]
+        corners = [placed(*corner) for corner in corners]
         positions = struct.pack(f"<{3 * len(corners)}f", *(value for corner in corners for value in corner))
         indices = struct.pack(f"<{3 * len(triangles)}I", *(index for one in triangles for index in one))
         document, _ = triangle()
-        document["accessors"][0].update(count=len(corners), min=[-2, -0.85, 0.2], max=[2, 0.85, 1.4])
+        bounds = {"min": [min(values) for values in zip(*corners)], "max": [max(values) for values in zip(*corners)]}
+        document["accessors"][0].update(count=len(corners), **bounds)
         document["accessors"][1].update(count=3 * len(triangles))
         document["bufferViews"][0]["byteLength"] = len(positions)
         document["bufferViews"][1].update(byteOffset=len(positions), byteLength=len(indices))
         document["buffers"][0]["byteLength"] = len(positions) + len(indices)
-        return self.write("lying.glb", glb(document, positions + indices))
+        return self.write(name, glb(document, positions + indices))
 
     def test_the_script_and_its_copy_of_the_model_are_written(self):
         done = run("car", self.write_lying_car(), "-o", self.folder / "new" / "car.xp")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.files(), ["lying.glb", "new", "new/car.xp", "new/car_model.glb"])
         self.assertIn('file="car_model.glb"', (self.folder / "new" / "car.xp").read_text())
+
+    def test_the_script_reads_its_car_without_data_wherever_that_lies(self):
+        (self.folder / "bodies").mkdir()
+        body = self.write_car("bodies/body.glb", lambda x, y, z: (x, z, -y))
+        for script, model in (("out/car.xp", "car_model.glb"), ("car.xp", "bodies/body.glb")):
+            done = run("car", body, "-o", self.folder / script)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(f'file="{model}"', (self.folder / script).read_text())
+            checked = run("check", self.folder / script)
+            self.assertEqual(checked.returncode, 0, checked.stderr)
 
     def test_a_script_that_cannot_be_written_leaves_no_copy_of_the_model(self):
         (self.folder / "car.xp").symlink_to("../elsewhere.xp")  # nothing writes out of the folder

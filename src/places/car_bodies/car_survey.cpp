@@ -23,6 +23,7 @@ std::string reason_for_copy(const scene::Model& model, const std::string& file, 
   const auto turns = [&](const OwnWheel& wheel) { return turns_in_traffic(model, wheel); };
   if (!std::ranges::all_of(found.wheels, turns))
     return "wheels turn only on nodes of their own whose names hold \"wheel\"";
+  if (file.starts_with("../")) return "a script reads nothing outside of its own folder";
   return "";
 }
 

@@ -24,7 +24,8 @@ struct CarSurvey {
   bool has_wheels() const { return !wheels.empty() || has_wheel_nodes; }
 };
 
-/// `file` names the model in errors, and its extension says how it is read. Errors: those of find_frame.
+/// `file` names the model as its script will, relative to the script's folder: where it leads out of that, a
+/// copy is needed. Its extension says how it is read. Errors: those of find_frame.
 Result<CarSurvey> survey(const scene::Model& model, const std::string& file);
 
 /// Comment lines of a script that say how the file's car was turned and scaled; empty where it was not.

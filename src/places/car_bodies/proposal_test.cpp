@@ -350,6 +350,8 @@ TEST_F(CarProposal, WheelsOfAnyNameTurnInTheCopy) {
   }
   EXPECT_NEAR(shape.front_axle_m, axle_x, 0.01f);
   EXPECT_FALSE(car_copy(*model, "car.glb")->has_value());  // a copy needs none
+  EXPECT_FALSE(car_copy(*model, "cars/car.glb")->has_value());
+  EXPECT_TRUE(car_copy(*model, "../car.glb")->has_value()) << "scripts do not read there";
 }
 
 TEST_F(CarProposal, ATurnedGltfWithWheelNodesNeedsNoCopy) {
