@@ -172,7 +172,7 @@ void SceneDrawable::gather_mirrors(const View& view, ViewList& list) const {
   list.statistics = {};
   for (const ViewList::Entry& entry : main_list_.order) {
     const Item& item = gpu_.items()[std::size_t(entry.item)];
-    if (item.is_mirror)
+    if (item.is_mirror && view.shows(item.object))
       list.order.push_back({sort_key(item, entry.level, view) & below_pass, entry.item, entry.level});
   }
   sort(list);

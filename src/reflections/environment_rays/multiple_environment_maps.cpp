@@ -226,6 +226,17 @@ bool MultipleEnvironmentMaps::supply(render::Renderer& renderer, const scene::Sc
   return is_first || !prefers_rate_;
 }
 
+/// Second rays smooth outlines: of what is small in the picture nobody sees it, and a frame that has to hold
+/// a budget goes without them first. The largest reflectors come first.
+std::span<const methods::VisibleReflector> MultipleEnvironmentMaps::with_smooth_outlines(
+    const std::vector<methods::VisibleReflector>& reflectors) const {
+  constexpr float min_size_px = 80.0f;
+  if (budget_.budget_ms() > 0.0) return {};
+  const auto small = std::ranges::find_if(
+      reflectors, [](const methods::VisibleReflector& reflector) { return reflector.size_px < min_size_px; });
+  return {reflectors.begin(), small};
+}
+
 void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                           const std::vector<methods::VisibleReflector>& reflectors) {
   prepared_.clear();
@@ -236,9 +247,7 @@ void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scen
     faces_drawn_ += 6;
   choose_details(renderer, reflectors);
   if (reflectors.empty()) return;
-  // Second rays smooth outlines: the first thing that a frame which has to hold a budget goes without.
-  picture_.draw_rays(renderer,
-                     budget_.budget_ms() > 0.0 ? methods::RayCount::one : methods::RayCount::and_edges);
+  picture_.draw_rays(renderer, with_smooth_outlines(reflectors));
   const gl::Program* current = nullptr;
   picture_.draw_light(renderer, reflectors,
                       [&](const methods::VisibleReflector& reflector) -> const gl::Program& {

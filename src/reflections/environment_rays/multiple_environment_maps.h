@@ -64,6 +64,8 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
                           ReferenceMaps maps, MapRenewal renewal, methods::MirrorPicture picture,
                           Programs programs);
   int best_detail_for(const methods::VisibleReflector& reflector) const;
+  std::span<const methods::VisibleReflector> with_smooth_outlines(
+      const std::vector<methods::VisibleReflector>& reflectors) const;
   void choose_details(const render::Renderer& renderer,
                       const std::vector<methods::VisibleReflector>& reflectors);
   void prepare(const gl::Program& program) const;

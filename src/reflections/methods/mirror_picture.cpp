@@ -107,8 +107,13 @@ void MirrorPicture::resize(int width, int height) {
   glNamedFramebufferTextureLayer(second_depth_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0, 1);
 }
 
-void MirrorPicture::draw_rays(render::Renderer& renderer, RayCount count) {
-  has_second_rays_ = edge_programs_ && count == RayCount::and_edges;
+void MirrorPicture::draw_rays(render::Renderer& renderer,
+                              std::span<const VisibleReflector> with_second_rays) {
+  has_second_rays_ = edge_programs_ && !with_second_rays.empty();
+  are_seconded_.assign(renderer.gpu().object_bounds().size(), 0);
+  if (has_second_rays_)
+    for (const VisibleReflector& reflector : with_second_rays)
+      are_seconded_[std::size_t(reflector.object)] = 1;
   resize(renderer.width(), renderer.height());
   constexpr GLfloat nothing[4]{};
   glClearNamedFramebufferfv(rays_[0].name(), GL_COLOR, 1, nothing);
@@ -134,6 +139,7 @@ void MirrorPicture::draw_edge_rays(render::Renderer& renderer) {
   view.kind = render::ViewKind::mirrors;
   view.surface_programs = &edge_programs_->rays;
   view.framebuffer = rays_[1].name();
+  view.shown_objects = &are_seconded_;
   view.clears = false;
   const glm::mat4 clip_from_world = view.clip_from_world;
   const glm::vec2 pixels(float(view.width), float(view.height));
@@ -200,16 +206,17 @@ void MirrorPicture::draw_light(
   constexpr GLfloat nothing[4]{};
   for (int layer = 0; layer <= int(has_second_rays_); ++layer) {
     begin_light(layer);
-    if (has_second_rays_) glClearBufferfv(GL_COLOR, 0, nothing);  // nothing is spread to where no ray is
+    if (has_second_rays_) glClearBufferfv(GL_COLOR, 0, nothing);  // not to all pixels is light spread
     glDepthFunc(GL_LESS);
     for (const VisibleReflector& reflector : reflectors) {
+      if (layer == 1 && !are_seconded_[std::size_t(reflector.object)]) continue;
       const gl::Program& program = use_program(reflector);
       program.set("ray_layer", layer);
       draw_over(renderer, program, reflector);
     }
   }
   end_light();
-  if (!has_second_rays_) spread_light(renderer, reflectors);
+  spread_light(renderer, reflectors);
 }
 
 /// Without second rays: beside pixels with a ray, where a surface covers less than the pixel's middle, the
@@ -221,7 +228,8 @@ void MirrorPicture::spread_light(const render::Renderer& renderer,
   glDepthFunc(GL_EQUAL);
   spread_.use();
   bind(spread_, first_method_unit);
-  for (const VisibleReflector& reflector : reflectors) draw_over(renderer, spread_, reflector);
+  for (const VisibleReflector& reflector : reflectors)
+    if (!are_seconded_[std::size_t(reflector.object)]) draw_over(renderer, spread_, reflector);
   end_light();
 }
 

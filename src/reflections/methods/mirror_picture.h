@@ -38,9 +38,9 @@ class MirrorPicture {
   /// For the scene of that renderer. Fails only if a shader does.
   static Result<MirrorPicture> create(const render::Renderer& renderer, RayCount rays = RayCount::one);
 
-  /// The rays of all mirror-like surfaces that the prepared main view shows; of each pixel no more than
-  /// `create` allows.
-  void draw_rays(render::Renderer& renderer, RayCount count = RayCount::and_edges);
+  /// The rays of all mirror-like surfaces that the prepared main view shows; second ones only of these
+  /// reflectors, where `create` allows them.
+  void draw_rays(render::Renderer& renderer, std::span<const VisibleReflector> with_second_rays = {});
 
   /// What comes along them. For each reflector `use_program` uses a program of render/whole_screen.vert and a
   /// fragment shader that reads the layer ray_layer of ray_starts and ray_directions, as mirror_rays.frag
@@ -82,7 +82,9 @@ class MirrorPicture {
                  const VisibleReflector& reflector) const;
   void spread_light(const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors) const;
 
-  bool has_second_rays_ = false;  ///< of the rays drawn last
+  /// Of the rays drawn last: whether there are second ones, and which objects have them, a flag for each.
+  bool has_second_rays_ = false;
+  std::vector<std::uint8_t> are_seconded_;
   int width_ = 0, height_ = 0;
   glm::ivec2 room_{0};  ///< of the textures, which never shrink
   render::SurfacePrograms ray_programs_;

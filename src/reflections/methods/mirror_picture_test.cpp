@@ -83,7 +83,7 @@ class DrawnColourOfObject : public ColourOfObject {
  private:
   void update_maps(render::Renderer& renderer, const scene::Scene&,
                    const std::vector<VisibleReflector>& reflectors) override {
-    mirrors().draw_rays(renderer, count_);
+    mirrors().draw_rays(renderer, count_ == RayCount::one ? std::span<const VisibleReflector>() : reflectors);
     mirrors().draw_light(renderer, reflectors, [&](const VisibleReflector& reflector) -> const gl::Program& {
       program_.use();
       program_.set("reflecting_object", reflector.object);
