@@ -133,7 +133,11 @@ Result<OsmFile> read_osm_file(const std::filesystem::path& file, Errors& warning
   if (!bytes) return bytes.errors();
   try {
     OsmFile osm = Reader(file, warnings).read(*bytes, is_xml ? "osm" : "pbf");
-    if (osm.nodes.empty()) return error_at(where, "this OpenStreetMap file has no nodes");
+    if (osm.nodes.empty())
+      return error_at(
+          where,
+          "this OpenStreetMap file has no nodes, and so no place to show; export an area in which "
+          "there is something (openstreetmap.org, Export)");
     return osm;
   } catch (const std::exception& problem) {  // of the library: what the file holds is not OpenStreetMap's
     return error_at(where, "this is no OpenStreetMap file that can be read: {}", reason_of(problem));

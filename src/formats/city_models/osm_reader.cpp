@@ -30,6 +30,18 @@ void add_ground(const OsmFile& osm, const Utm& utm, const glm::dvec3& origin, co
   trenches.add_level(rings, {{"ground", "LandUse", ""}}, city);
 }
 
+/// The error for a file of which nothing is drawn.
+Error nothing_to_show(const OsmFile& osm, const FileLocation& where, bool has_ground,
+                      const Errors& warnings) {
+  return error_at(
+      where,
+      "nothing of this OpenStreetMap file can be shown: its {} nodes and {} ways make no building, "
+      "land, tree, wall, rail or bridge{}{}; export an area in which there is something "
+      "(openstreetmap.org, Export)",
+      osm.nodes.size(), osm.ways.size(), has_ground ? "" : ", and its bounds enclose no ground",
+      warnings.empty() ? "" : fmt::format(" ({})", warnings.front().message));
+}
+
 }  // namespace
 
 Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file, Errors& warnings,
@@ -70,6 +82,7 @@ Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file
   add_osm_woods(osm, place, shaped, trenches, city);
   add_osm_rails(osm, relief, ground, shaped, city);
   add_osm_bridges(osm, relief, ground, half_carriageway_m, city);
+  if (city.polygon_count() == 0) return nothing_to_show(osm, where, bool(ground), warnings);
   Result<Model> model = city.finish(buildings);
   if (model) model->roads = std::move(roads);
   return model;

@@ -726,10 +726,30 @@ TEST(Osm, HostileFilesAreRefusedByName) {
   expect_refused("<osm><node id='1' lat='1' lon='1'/></osm>", "version");
   expect_refused("<!DOCTYPE osm [<!ENTITY a SYSTEM 'file:///etc/passwd'>]><osm>&a;</osm>", "DOCTYPE");
   expect_refused("<gpx/>", "<gpx>; expected <osm>");
-  expect_refused("<osm version='0.6'/>", "has no nodes");
+  expect_refused("<osm version='0.6'/>", "has no nodes, and so no place to show; export an area");
   expect_refused("<osm version='0.6'><node id='1' lat='91' lon='0'/></osm>", "has no nodes");
   expect_refused("<osm version='0.6'><node id='1' lat='0' lon='0'/><node id='2' lat='40' lon='5'/></osm>",
                  "cut out");
+}
+
+TEST(Osm, AFileThatShowsNothingSaysWhatItHasAndWhatToDo) {
+  const TestFolder folder;
+  const auto file =
+      folder.write("line.osm",
+                   "<osm version='0.6'><node id='1' lat='52' lon='4'/><node id='2' lat='52.001' "
+                   "lon='4'/>" +
+                       way(100, "1 2", {{"power", "line"}}) + "</osm>");
+  const auto said = [&](const GroundOnMap& ground) {
+    Errors warnings;
+    const Result<Model> model = read_osm(file, warnings, ground);
+    EXPECT_FALSE(model);
+    return model ? "" : to_string(model.errors());
+  };
+  for (const char* words : {"2 nodes and 1 ways", "its bounds enclose no ground", "export an area"})
+    EXPECT_NE(said({}).find(words), std::string::npos) << said({});
+  const std::string over_terrain = said([](glm::dvec2) { return 5.0; });
+  EXPECT_EQ(over_terrain.find("bounds"), std::string::npos) << over_terrain;
+  EXPECT_NE(over_terrain.find("export an area"), std::string::npos) << over_terrain;
 }
 
 TEST(Osm, DamagedFilesNeverCrash) {
