@@ -224,6 +224,31 @@ TEST_F(LitObjects, KeepTheirOwnShadeInTheFrameOfAMove) {
   EXPECT_LT(mean_difference(quick.behind, truth.behind), 0.2 * mean);
 }
 
+/// What rays found of a thing itself holds while it is moved, and no longer once it is turned: a wall that
+/// stood in the east of its floor stands in the west.
+TEST_F(LitObjects, ForgetTheirOwnShadeWhereTheyAreTurnedOrStretched) {
+  Mesh corner = scene::box({-1, -1, 0}, {1, 1, 0.2f});
+  append(corner, scene::box({0.9f, -1, 0.2f}, {1, 1, 3}));
+  save("corner.glb", corner);
+  const auto lit = [&](const std::string& placed) {
+    return run(
+        "dayLight(julianDay=172, timeOfDay=15, standardMeridian=2)\nmodel(file=\"ground.glb\")\n"
+        "litVirtualObject(rays=64, budget_ms=0) { object(file=\"corner.glb\", grab=1" +
+        placed + ") }\n");
+  };
+  for (const char* const placed : {", heading_deg=180", ", scale=2"}) {
+    Running fresh = lit(placed), changed = lit("");
+    const std::vector<vec3> before = changed.light("corner")->parts[0].front;
+    changed.object("corner").world_from_model = fresh.object("corner").world_from_model;
+    changed.clock->advance(changed.scene, 0.02);
+    const std::vector<vec3>&truth = fresh.light("corner")->parts[0].front,
+          &found = changed.light("corner")->parts[0].front;
+    const double mean = mean_difference(truth, std::vector<vec3>(truth.size(), vec3(0.0f)));
+    EXPECT_LT(mean_difference(found, truth), 1e-3 * mean) << placed;
+    EXPECT_GT(mean_difference(before, truth), 0.01 * mean) << placed << ": the control";
+  }
+}
+
 /// A budget that is too small even for what places around see: nothing hides sky and sun in the frame of a
 /// move, whatever the object had before; then rays come as the budget brings them.
 TEST_F(LitObjects, HaveSkyAndSunOfTheOpenWhereThereIsNoTimeForMore) {
