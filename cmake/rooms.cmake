@@ -26,6 +26,17 @@ target_compile_options(parvis_test_options INTERFACE $<$<CONFIG:Release>:-O1>)
 add_library(parvis_test_main OBJECT ${CMAKE_SOURCE_DIR}/cmake/test_main.cpp)
 target_link_libraries(parvis_test_main PRIVATE parvis_options PUBLIC GTest::gtest INTERFACE parvis_base)
 
+# Adds a test of one label: `unit` of rooms that do not draw, `draws` of rooms that use gl, `command` where the program is
+# started, `dev` for what is no part of the product and of script/test only with --full. Those that take longest start first.
+function(parvis_test name label)  # further arguments: the command
+  add_test(NAME ${name} COMMAND ${ARGN})
+  set(cost_unit 1)
+  set(cost_draws 10)
+  set(cost_command 100)
+  set(cost_dev 1000)
+  set_tests_properties(${name} PROPERTIES LABELS ${label} COST ${cost_${label}})
+endfunction()
+
 # A fuzzer for each file fuzz/NAME.cpp of the room, ROOM_NAME_fuzz; script/fuzz runs them. In other builds the same
 # program only reads its seeds, fuzz/corpus/NAME/*, and the inputs once found, fuzz/found/NAME-*, as a test.
 function(parvis_fuzzers room)  # further arguments: libraries
@@ -41,7 +52,7 @@ function(parvis_fuzzers room)  # further arguments: libraries
     else()
       target_sources(${program} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/read_found_inputs.cpp)
       if(inputs)
-        add_test(NAME ${program} COMMAND ${program} ${inputs})
+        parvis_test(${program} unit ${program} ${inputs})
       endif()
     endif()
   endforeach()
@@ -106,7 +117,13 @@ function(parvis_room name)
       target_precompile_headers(${name}_test REUSE_FROM parvis_test_pch)
     endif()
     target_compile_definitions(${name}_test PRIVATE PARVIS_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-    add_test(NAME ${name} COMMAND ${name}_test)
+    set(label unit)
+    if(name MATCHES "bench$")
+      set(label dev)
+    elseif(name STREQUAL gl OR "parvis_gl" IN_LIST ROOM_USES OR "parvis_gl" IN_LIST ROOM_TEST_USES)
+      set(label draws)
+    endif()
+    parvis_test(${name} ${label} ${name}_test)
   endif()
   parvis_fuzzers(${name} ${ROOM_TEST_USES} ${ROOM_PRIVATE_LIBRARIES})
 endfunction()

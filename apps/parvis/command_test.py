@@ -117,6 +117,19 @@ def pixels(png):
     return rows, channels
 
 
+class TimedResult(unittest.TextTestResult):
+    """Prints the time of each test as GoogleTest does, for script/test."""
+
+    def startTest(self, test):
+        self.began = time.monotonic()
+        super().startTest(test)
+
+    def stopTest(self, test):
+        super().stopTest(test)
+        milliseconds = 1000 * (time.monotonic() - self.began)
+        self.stream.writeln(f"[     TIME ] {type(test).__name__}.{test._testMethodName} ({milliseconds:.0f} ms)")
+
+
 class InAFolder(unittest.TestCase):
     """Each test has an empty folder of its own."""
 
@@ -1398,4 +1411,4 @@ class Window(InAFolder):
 
 if __name__ == "__main__":
     PARVIS = os.path.abspath(sys.argv.pop(1))
-    unittest.main(verbosity=2)  # the names of tests that are skipped, too
+    unittest.main(testRunner=unittest.TextTestRunner(verbosity=2, resultclass=TimedResult))  # names those skipped, too
