@@ -25,6 +25,7 @@ target_compile_options(parvis_test_options INTERFACE $<$<CONFIG:Release>:-O1>)
 
 add_library(parvis_test_main OBJECT ${CMAKE_SOURCE_DIR}/cmake/test_main.cpp)
 target_link_libraries(parvis_test_main PRIVATE parvis_options PUBLIC GTest::gtest INTERFACE parvis_base)
+target_compile_definitions(parvis_test_main PRIVATE PARVIS_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
 
 # Adds a test of one label: `unit` of rooms that do not draw, `draws` of rooms that use gl, `command` where the program is
 # started, `dev` for what is no part of the product and of script/test only with --full. Those that take longest start first.
@@ -116,7 +117,6 @@ function(parvis_room name)
     if(PARVIS_USES_PCH)
       target_precompile_headers(${name}_test REUSE_FROM parvis_test_pch)
     endif()
-    target_compile_definitions(${name}_test PRIVATE PARVIS_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
     set(label unit)
     if(name MATCHES "bench$")
       set(label dev)

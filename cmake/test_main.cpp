@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "base/isolated_process.h"
+#include "base/test_data.h"
+
+std::filesystem::path parvis::source_folder() { return PARVIS_SOURCE_DIR; }
 
 int main(int count, char** arguments) {
   testing::InitGoogleTest(&count, arguments);

@@ -66,7 +66,7 @@ TEST(ImageIo, AnEvenJpegComesBackNearly) {
 TEST(ImageIo, PicturesWithColourProfilesAreReadSideBySide) {
   // OpenImageIO 2.4 converts the profile's texts with one converter for all threads: without a lock this
   // crashed.
-  const std::optional<fs::path> town = shared_data("cities/citygml/appearances", PARVIS_SOURCE_DIR);
+  const std::optional<fs::path> town = shared_data("cities/citygml/appearances");
   if (!town) GTEST_SKIP() << "skipped: shared data absent";
   std::vector<fs::path> pictures;
   for (const fs::directory_entry& entry : fs::directory_iterator(*town))

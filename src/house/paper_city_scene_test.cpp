@@ -34,7 +34,7 @@ TEST(PaperCity, IsASceneOfThePapersFigures) {
   EXPECT_NE(scene.find_camera("street"), nullptr);
   EXPECT_NE(scene.find_camera("balcony"), nullptr);
   EXPECT_NEAR(glm::dot(scene.sun.direction_to_sun, to_sun()), 1.0f, 1e-5f);
-  scene::expect_valid_gltf(folder, PARVIS_SOURCE_DIR);
+  scene::expect_valid_gltf(folder);
   fs::remove_all(folder);
 }
 

@@ -53,11 +53,11 @@ bool touches(const traffic::Footprint& footprint, const scene::Mask& mask) {
 }
 
 void expect_orderly_traffic(const std::string& script, const std::string& city) {
-  const auto file = shared_data(city, PARVIS_SOURCE_DIR);
+  const auto file = shared_data(city);
   if (!file) GTEST_SKIP() << "skipped: shared data absent";
   const std::vector<std::filesystem::path> roots{file->parent_path().parent_path()};
   Result<scene::LoadedScene> loaded =
-      scene::load_scene(std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes" / script, node_registry(), roots);
+      scene::load_scene(source_folder() / "scenes" / script, node_registry(), roots);
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   const scene::Mask houses = built_on(loaded->scene);
   ASSERT_GT(std::ranges::count(houses.cells, 1), 1000);

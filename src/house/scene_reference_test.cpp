@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/test_data.h"
 #include "house/rooms.h"
 #include "house/stage/stage.h"
 #include "scene/script/schema_json.h"
@@ -17,7 +18,7 @@ using namespace scene;  // all of it is about this room
 
 TEST(SceneReference, TheCommittedFileIsUpToDate) {
   const std::string expected = scene_reference(node_registry());
-  const std::filesystem::path file = std::filesystem::path(PARVIS_SOURCE_DIR) / "docs/scene-reference.md";
+  const std::filesystem::path file = source_folder() / "docs/scene-reference.md";
   const auto committed = read_file(file);
   ASSERT_TRUE(committed) << to_string(committed.errors());
   EXPECT_TRUE(*committed == expected) << "docs/scene-reference.md is out of date: write it again with\n"

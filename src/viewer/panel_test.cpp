@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/test_data.h"
 #include "graphics/render/golden.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
@@ -93,7 +94,7 @@ class PanelTest : public SquareTest {
     // on a GPU edges lie elsewhere: there only the whole counts.
     const render::GoldenTolerance tolerance = gl::is_software() ? render::GoldenTolerance{32, 2, 0.002, 0.05}
                                                                 : render::GoldenTolerance{255, 16, 0.03, 1.5};
-    const Status status = render::matches_golden(picture(), name, tolerance, PARVIS_SOURCE_DIR);
+    const Status status = render::matches_golden(picture(), name, tolerance, source_folder());
     EXPECT_TRUE(status) << to_string(status.errors());
   }
 

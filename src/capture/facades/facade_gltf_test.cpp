@@ -82,7 +82,7 @@ TEST(FacadeGltf, OtherProgramsSeeATextureAndWeTheLayers) {
   EXPECT_EQ(back->photos[2].view.fx, facade.photos[2].view.fx);
   EXPECT_EQ(back->photos[3].balance.scale, facade.photos[3].balance.scale);
 
-  scene::expect_valid_gltf(folder.path(), PARVIS_SOURCE_DIR);
+  scene::expect_valid_gltf(folder.path());
 }
 
 TEST(FacadeGltf, TheBackdropIsMarkedForThoseWhoSeeTheModel) {

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "base/files.h"
+#include "base/test_data.h"
 #include "capture/facades/facade_lookup.h"
 #include "capture/facades/measure_place.h"
 #include "capture/facades/rephotography.h"
@@ -250,7 +251,7 @@ TEST(PackedFacade, APointFarBeyondItsPhotographsHasNoColour) {
 TEST(PackedFacade, TheFuzzersSeedsReachTheEndOfTheReader) {
   std::size_t slots = 0;
   for (const auto& seed :
-       std::filesystem::directory_iterator(PARVIS_SOURCE_DIR "/src/capture/facades/fuzz/corpus/facade")) {
+       std::filesystem::directory_iterator(source_folder() / "src/capture/facades/fuzz/corpus/facade")) {
     const Result<PackedFacade> facade = facade_of(*read_file(seed.path()), seed.path());
     ASSERT_TRUE(facade) << to_string(facade.errors());
     EXPECT_EQ(facade->triangle_count(), 2u);

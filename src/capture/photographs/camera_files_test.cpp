@@ -154,7 +154,7 @@ TEST(CameraFiles, EachCameraWithoutPictureAndEachPictureWithoutCameraIsNamed) {
 }
 
 TEST(CameraFiles, StrechasAndColmapsCamerasOfTheCourtyardAgree) {
-  const auto data = shared_data("photos_castle_p30", PARVIS_SOURCE_DIR);
+  const auto data = shared_data("photos_castle_p30");
   if (!data) GTEST_SKIP() << "photos_castle_p30 is not there";
   const auto strecha = read_cameras(*data / "camera_orig", *data / "images");
   const auto colmap = read_cameras(*data / "colmap", *data / "images");
@@ -176,7 +176,7 @@ TEST(CameraFiles, StrechasAndColmapsCamerasOfTheCourtyardAgree) {
 }
 
 TEST(CameraFiles, ReadsTheCastleOfSceaux) {
-  const auto data = shared_data("photos_sceaux", PARVIS_SOURCE_DIR);
+  const auto data = shared_data("photos_sceaux");
   if (!data) GTEST_SKIP() << "photos_sceaux is not there";
   const auto loaded = read_cameras(*data / "cameras.json", *data / "images");
   ASSERT_TRUE(loaded) << to_string(loaded.errors());

@@ -156,7 +156,7 @@ TEST(Colmap, HugeCountsTakeNoMemory) {
 }
 
 TEST(Colmap, ReadsTheCourtyard) {
-  const auto folder = shared_data("photos_castle_p30", PARVIS_SOURCE_DIR);
+  const auto folder = shared_data("photos_castle_p30");
   if (!folder) GTEST_SKIP() << "photos_castle_p30 is not there";
   const auto model = read_colmap_model(*folder / "colmap");
   ASSERT_TRUE(model) << to_string(model.errors());

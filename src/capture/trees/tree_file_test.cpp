@@ -8,6 +8,7 @@
 
 #include "base/files.h"
 #include "base/sealed_file.h"
+#include "base/test_data.h"
 #include "base/test_folder.h"
 #include "capture/trees/crossed_billboards.h"
 #include "capture/trees/test_volume.h"
@@ -255,7 +256,7 @@ TEST(TreeFile, TheFuzzersSeedsReachTheEndOfTheReaders) {
   const TestFolder folder;
   const std::filesystem::path file = folder.path() / "seed";
   int seeds = 0;
-  const std::string corpus = fmt::format("{}/src/capture/trees/fuzz/corpus/tree", PARVIS_SOURCE_DIR);
+  const std::string corpus = (source_folder() / "src/capture/trees/fuzz/corpus/tree").string();
   for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
     const std::string content = *read_file(entry.path());
     const std::string name = entry.path().filename().string();

@@ -221,8 +221,8 @@ TEST(CityGml3, DamagedBytesNeverCrash) {
 }
 
 TEST(CityGml3, ATownIsWhatCityJsonMakesIt) {
-  const auto in_3 = shared_data("cities/citygml/lod2_buildings_v3.gml", PARVIS_SOURCE_DIR),
-             json = shared_data("cities/citygml/lod2_buildings_v2.json", PARVIS_SOURCE_DIR);
+  const auto in_3 = shared_data("cities/citygml/lod2_buildings_v3.gml"),
+             json = shared_data("cities/citygml/lod2_buildings_v2.json");
   if (!in_3 || !json) GTEST_SKIP() << "skipped: shared data absent";
   Errors warnings;
   const Result<Model> gml_town = read_city_gml(*in_3, warnings), json_town = read_city_model(*json, warnings);

@@ -400,7 +400,7 @@ TEST(CityGml, DamagedBytesNeverCrash) {
 }
 
 TEST(CityGml, ReadsATexturedBuilding) {
-  const auto file = shared_data("cities/citygml/lod3_building_v2.gml", PARVIS_SOURCE_DIR);
+  const auto file = shared_data("cities/citygml/lod3_building_v2.gml");
   if (!file) GTEST_SKIP() << "skipped: shared data absent";
   Errors warnings;
   const Result<Model> city = read_city_gml(*file, warnings);

@@ -410,7 +410,7 @@ TEST(CityJson, ReadsRealCities) {
   for (const char* name : {"cities/DenHaag_01.city.json", "cities/delft_context.city.json",
                            "cities/zurich_subset_lod2.city.json",
                            "cities/rotterdam_two_buildings_textured/twobuildings_t.json"}) {
-    const auto file = shared_data(name, PARVIS_SOURCE_DIR);
+    const auto file = shared_data(name);
     if (!file) GTEST_SKIP() << "skipped: shared data absent";
     Errors warnings;
     const Result<Model> city = read_city_model(*file, warnings);
@@ -471,8 +471,7 @@ TEST(CityJson, ASequenceOfFeaturesIsOneCity) {
 }
 
 TEST(CityJson, PicturesMayLieInTheUsualFolderBesideTheFile) {
-  const auto two =
-      shared_data("cities/rotterdam_two_buildings_textured/twobuildings_t.json", PARVIS_SOURCE_DIR);
+  const auto two = shared_data("cities/rotterdam_two_buildings_textured/twobuildings_t.json");
   if (!two) GTEST_SKIP() << "cities/rotterdam_two_buildings_textured/twobuildings_t.json";
   Errors warnings;
   const Result<Model> model = read_city_model(*two, warnings);

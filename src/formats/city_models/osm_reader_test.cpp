@@ -11,6 +11,7 @@
 
 #include "base/files.h"
 #include "base/random.h"
+#include "base/test_data.h"
 #include "base/test_folder.h"
 #include "formats/city_models/osm_things.h"
 #include "formats/city_models/osm_woods.h"
@@ -640,7 +641,7 @@ TEST(Osm, PbfSaysTheSameAsXml) {
 
 /// script/fuzz_seeds has written them.
 TEST(Osm, TheFuzzersPbfSeedsSayTheSameAsTheirMaps) {
-  const std::filesystem::path corpus(PARVIS_SOURCE_DIR "/src/formats/city_models/fuzz/corpus");
+  const std::filesystem::path corpus(source_folder() / "src/formats/city_models/fuzz/corpus");
   int seeds = 0;
   for (const auto& seed : std::filesystem::directory_iterator(corpus / "osm_pbf")) {
     const std::string file = seed.path().filename().string(), name = file.substr(0, file.find_first_of("_."));

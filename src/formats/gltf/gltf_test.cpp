@@ -187,7 +187,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 TEST(Gltf, TheKhronosValidatorFindsNoErrorInWhatIsWritten) {
   const TestFolder folder;
   ASSERT_TRUE(write_gltf(folder.path() / "small.glb", small_model()));
-  expect_valid_gltf(folder.path(), PARVIS_SOURCE_DIR);
+  expect_valid_gltf(folder.path());
 }
 
 TEST(Gltf, HostileFilesAreRefusedByName) {
@@ -296,7 +296,7 @@ TEST(Gltf, DamagedBytesNeverCrash) {
 
 TEST(Gltf, SkinnedFiguresStandUprightInTheirRestPose) {
   for (const char* name : {"CesiumMan/CesiumMan.gltf", "RiggedFigure/RiggedFigure.gltf"}) {
-    const auto file = shared_data(std::string("gltf_animated/") + name, PARVIS_SOURCE_DIR);
+    const auto file = shared_data(std::string("gltf_animated/") + name);
     if (!file) GTEST_SKIP() << "skipped: shared data absent";
     const Bounds box = bounds(read(*file));
     EXPECT_GT(box.size().z, 1.3f) << name;
@@ -325,7 +325,7 @@ TEST(Gltf, ASkinWithMissingJointsIsNamed) {
 }
 
 TEST(Gltf, ReadsTheCarsOfKenney) {
-  const auto file = shared_data("gltf_kenney/vehicles/sedan-sports.glb", PARVIS_SOURCE_DIR);
+  const auto file = shared_data("gltf_kenney/vehicles/sedan-sports.glb");
   if (!file) GTEST_SKIP() << "skipped: shared data absent";
   const Model model = read(*file);
   const Bounds box = bounds(model);

@@ -88,20 +88,20 @@ TEST(GltfWriter, SkinsMorphTargetsAndAnimationsReadTheSame) {
   ASSERT_TRUE(again.parts.front().deformation);
   EXPECT_EQ(again.parts.front().deformation->weights, std::vector<float>{0.25f});
   EXPECT_EQ(again.animations.front().weights.size(), 1u);
-  expect_valid_gltf(folder.path(), PARVIS_SOURCE_DIR);
+  expect_valid_gltf(folder.path());
 }
 
 TEST(GltfWriter, FiguresThatMoveReadTheSame) {
   const TestFolder folder;
   for (const char* name : {"CesiumMan/CesiumMan", "RiggedFigure/RiggedFigure", "Fox/Fox"}) {
-    const auto file = shared_data(std::string("gltf_animated/") + name + ".gltf", PARVIS_SOURCE_DIR);
+    const auto file = shared_data(std::string("gltf_animated/") + name + ".gltf");
     if (!file) GTEST_SKIP() << "skipped: shared data absent";
     const Model model = read(*file);
     const fs::path written = folder.path() / (model.name + ".glb");
     ASSERT_TRUE(write_gltf(written, model));
     expect_same_shape(model, read(written));
   }
-  expect_valid_gltf(folder.path(), PARVIS_SOURCE_DIR);
+  expect_valid_gltf(folder.path());
 }
 
 /// Two flags of one model, one of which plays, a moved box and a camera.
@@ -144,7 +144,7 @@ TEST(GltfWriter, ObjectsStandWhereTheSceneHasThem) {
   EXPECT_EQ(again.parts.size(), 3u);
   ASSERT_EQ(again.animations.size(), 2u);  // of each flag
   EXPECT_EQ(again.animations.front().name, "flag west: wave");
-  expect_valid_gltf(folder.path(), PARVIS_SOURCE_DIR);
+  expect_valid_gltf(folder.path());
 }
 
 TEST(GltfWriter, WhatIsABackdropAndWhatCastsNoShadowReadTheSame) {
@@ -188,13 +188,13 @@ TEST(GltfWriter, PaintedObjectsShareTheDataOfTheirMeshes) {
   EXPECT_EQ(count(glm::vec3(0.5f)), 1);
   EXPECT_EQ(count({0.75f, 0.25f, 0.25f}), 2);
   EXPECT_LT(fs::file_size(folder.path() / "two.glb"), fs::file_size(folder.path() / "one.glb") + 2000);
-  expect_valid_gltf(folder.path(), PARVIS_SOURCE_DIR);
+  expect_valid_gltf(folder.path());
 }
 
 TEST(GltfWriter, ASceneWithoutObjectsIsAFileToo) {
   const TestFolder folder;
   ASSERT_TRUE(write_gltf(folder.path() / "empty.glb", {}, small_square().cameras));
-  expect_valid_gltf(folder.path(), PARVIS_SOURCE_DIR);
+  expect_valid_gltf(folder.path());
 }
 
 TEST(GltfWriter, PicturesOfOneNameAreKeptApartAndEqualOnesAreOne) {
@@ -213,7 +213,7 @@ TEST(GltfWriter, PicturesOfOneNameAreKeptApartAndEqualOnesAreOne) {
   ASSERT_EQ(again.textures.size(), 2u);
   EXPECT_EQ(again.materials[2].base_colour_texture, again.materials[1].base_colour_texture);
   EXPECT_EQ(again.textures[1].image.pixels.front(), 90);
-  expect_valid_gltf(folder.path(), PARVIS_SOURCE_DIR);
+  expect_valid_gltf(folder.path());
 }
 
 TEST(GltfWriter, PicturesOfLongAndEqualNamesAreWritten) {

@@ -7,12 +7,13 @@
 
 #include "base/files.h"
 #include "base/image_io.h"
+#include "base/test_data.h"
 #include "base/test_folder.h"
 
 namespace parvis::scene {
 namespace {
 
-const std::filesystem::path pavilion_file = std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes/pavilion.ifc";
+const std::filesystem::path pavilion_file = source_folder() / "scenes/pavilion.ifc";
 
 class IfcTest : public testing::Test {
  protected:

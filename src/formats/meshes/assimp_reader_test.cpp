@@ -51,7 +51,7 @@ TEST(Assimp, DamagedTextNeverCrashes) {
 }
 
 TEST(Assimp, ReadsTheRealCar) {
-  const auto file = shared_data("cars/p406/p406.obj", PARVIS_SOURCE_DIR);
+  const auto file = shared_data("cars/p406/p406.obj");
   if (!file) GTEST_SKIP() << "skipped: shared data absent";
   Errors warnings;
   const Result<Model> model = read_with_assimp(*file, formats::UpAxis::file, warnings);

@@ -186,10 +186,10 @@ TEST_F(ModelNodes, TrafficTakesItsKindsFromItsChildren) {
 }
 
 TEST_F(ModelNodes, RealCarsGetGlassByTheColourOfTheirPalette) {
-  const auto car = shared_data("gltf_kenney/vehicles/van.glb", PARVIS_SOURCE_DIR);
+  const auto car = shared_data("gltf_kenney/vehicles/van.glb");
   if (!car) GTEST_SKIP() << "skipped: shared data absent";
   const std::vector<std::filesystem::path> data{car->parent_path().parent_path().parent_path()};
-  const std::filesystem::path scripts = std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes/cars";
+  const std::filesystem::path scripts = source_folder() / "scenes/cars";
   for (const char* script : {"kenney_sedan.xp", "kenney_suv.xp", "kenney_van.xp"}) {
     const auto loaded = load_scene(scripts / script, registry_, data);
     ASSERT_TRUE(loaded) << to_string(loaded.errors());
@@ -207,11 +207,10 @@ TEST_F(ModelNodes, RealCarsGetGlassByTheColourOfTheirPalette) {
 }
 
 TEST_F(ModelNodes, ARealCarGetsGlassPaintAndWheels) {
-  const auto car = shared_data("cars/p406/p406.obj", PARVIS_SOURCE_DIR);
+  const auto car = shared_data("cars/p406/p406.obj");
   if (!car) GTEST_SKIP() << "skipped: shared data absent";
   const std::vector<std::filesystem::path> data{car->parent_path().parent_path().parent_path()};
-  const auto loaded =
-      load_scene(std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes/cars/p406.xp", registry_, data);
+  const auto loaded = load_scene(source_folder() / "scenes/cars/p406.xp", registry_, data);
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   EXPECT_TRUE(loaded->warnings.empty()) << to_string(loaded->warnings);
   const Model& model = *loaded->scene.objects.at(0).model;

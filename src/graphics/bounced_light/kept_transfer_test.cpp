@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/sealed_file.h"
+#include "base/test_data.h"
 #include "base/test_folder.h"
 #include "graphics/bounced_light/bounced_over.h"
 #include "graphics/bounced_light/room.h"
@@ -230,8 +231,8 @@ TEST_F(KeptTransfer, BytesOfNoPlaceAreNone) {
 /// Seeds that are refused reach nothing of what fuzzers look for.
 TEST(TransferSeeds, AreTransfers) {
   int count = 0;
-  for (const auto& seed : fs::directory_iterator(fs::path(PARVIS_SOURCE_DIR) /
-                                                 "src/graphics/bounced_light/fuzz/corpus/transfer")) {
+  for (const auto& seed :
+       fs::directory_iterator(source_folder() / "src/graphics/bounced_light/fuzz/corpus/transfer")) {
     EXPECT_TRUE(Transfer::from_bytes(content_of(seed.path()))) << seed.path() << ": run script/fuzz_seeds";
     ++count;
   }

@@ -69,7 +69,7 @@ TEST(DayLightTime, TheThesissExampleHasTheSunInTheWest) {
 }
 
 TEST(DayLightTime, TwilightOfTheUsNavalObservatory) {
-  const auto file = shared_data("sun/sunrise_usno_reference_testdata_civil.csv", PARVIS_SOURCE_DIR);
+  const auto file = shared_data("sun/sunrise_usno_reference_testdata_civil.csv");
   if (!file) GTEST_SKIP() << "../shared/data/sun is absent";
   std::ifstream lines(*file);
   int rows = 0, days_without_night = 0;

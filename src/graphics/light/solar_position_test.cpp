@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/test_data.h"
 #include "graphics/light/sun_tables.h"
 
 namespace parvis::light {
@@ -28,7 +29,7 @@ TEST(SolarPosition, TheExampleOfTheReport) {
 }
 
 TEST(SolarPosition, EveryRowOfNrel) {
-  const auto file = shared_data("sun/spa_azimuth_zenith.csv", PARVIS_SOURCE_DIR);
+  const auto file = shared_data("sun/spa_azimuth_zenith.csv");
   if (!file) GTEST_SKIP() << "../shared/data/sun is absent";
   const std::vector<SunRow> rows = read_sun_rows(*file);
   ASSERT_GT(rows.size(), 200u);

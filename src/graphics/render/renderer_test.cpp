@@ -6,6 +6,7 @@
 
 #include "base/colour.h"
 #include "base/random.h"
+#include "base/test_data.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/render/culling_check.h"
@@ -530,7 +531,7 @@ TEST_F(RendererTest, APlaceWithSunAndShadowIsGolden) {
   const GoldenTolerance tolerance =
       gl::is_software() ? GoldenTolerance{32, 2, 0.002, 0.05} : GoldenTolerance{255, 16, 0.03, 1.5};
   const Status status =
-      matches_golden(renderer->read_picture(1.0f), "render-place", tolerance, PARVIS_SOURCE_DIR);
+      matches_golden(renderer->read_picture(1.0f), "render-place", tolerance, source_folder());
   EXPECT_TRUE(status) << to_string(status.errors());
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
+#include "base/test_data.h"
 #include "formats/gltf/gltf_writer.h"
 #include "formats/readers/readers.h"
 #include "life/traffic/demand.h"
@@ -366,7 +367,7 @@ TEST_F(CarProposal, ATurnedGltfWithWheelNodesNeedsNoCopy) {
 }
 
 TEST_F(CarProposal, OfTheBodyAmongTheScenesIsTheOneBesideIt) {
-  const std::filesystem::path folder = std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes";
+  const std::filesystem::path folder = source_folder() / "scenes";
   Errors warnings;
   const Result<scene::Model> body =
       house_.get<formats::Readers>().read(folder / "bare_saloon.glb", {}, warnings);

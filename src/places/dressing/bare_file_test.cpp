@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
+#include "base/test_data.h"
 #include "base/test_folder.h"
 #include "graphics/render/fixed_parts.h"
 #include "house/rooms.h"
@@ -167,8 +168,7 @@ TEST(BareFile, ATowerIsSeenWholeFromAbove) {
 
 TEST(BareFile, LoadsWithoutAWarningAndHasGroundToTheHorizon) {
   const TestFolder folder;
-  std::filesystem::copy(std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes" / "crossroads.osm",
-                        folder.path());
+  std::filesystem::copy(source_folder() / "scenes" / "crossroads.osm", folder.path());
   const Result<WrittenScene> written =
       write_bare_scene(folder.path() / "crossroads.osm", readers(), folder.path());
   ASSERT_TRUE(written) << to_string(written.errors());
@@ -195,8 +195,7 @@ TEST(BareFile, LoadsWithoutAWarningAndHasGroundToTheHorizon) {
 /// The map of crossroads as the model "town", followed by more of a script.
 scene::Scene crossroads_with(const std::string& rest) {
   const TestFolder folder;
-  std::filesystem::copy(std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes" / "crossroads.osm",
-                        folder.path());
+  std::filesystem::copy(source_folder() / "scenes" / "crossroads.osm", folder.path());
   const auto script =
       folder.write("a.xp", "model(name=\"town\", file=\"crossroads.osm\") " + rest +
                                "\ncamera(name=\"c\", position=\"0 -9 2\", target=\"0 0 1\")\n");
@@ -234,8 +233,7 @@ TEST(Dressing, WithoutATargetWallsAndRoofsAreTheModelsOwn) {
 
 TEST(BareFile, NothingIsOverwritten) {
   const TestFolder folder;
-  std::filesystem::copy(std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes" / "crossroads.osm",
-                        folder.path());
+  std::filesystem::copy(source_folder() / "scenes" / "crossroads.osm", folder.path());
   const auto file = folder.path() / "crossroads.osm";
   folder.write("crossroads.xp", "// mine\n");
   const Result<WrittenScene> first = write_bare_scene(file, readers(), folder.path());

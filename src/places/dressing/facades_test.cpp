@@ -100,7 +100,7 @@ TEST(Facades, NoWallIsLostOrDoubled) {
   add_facades(rows, "*");
   EXPECT_NEAR(area_of(rows, "facade"), area, 1e-5 * area);
   for (const char* name : {"cities/delft_context.city.json", "cities/DenHaag_01.city.json"}) {
-    const auto file = shared_data(name, PARVIS_SOURCE_DIR);
+    const auto file = shared_data(name);
     if (!file) GTEST_SKIP() << name;
     Errors warnings;
     Result<scene::Model> city = house::all_rooms().get<formats::Readers>().read(*file, {}, warnings);

@@ -229,7 +229,7 @@ TEST(ReflectorMap, SearchesAreRightOnTheFineMeshOrTold) {
 
 TEST(ReflectorMap, RealBodiesReflectRightOrTell) {
   for (const char* name : {"reflectors/teapot.obj", "reflectors/spot.obj"}) {
-    const std::optional<std::filesystem::path> file = shared_data(name, PARVIS_SOURCE_DIR);
+    const std::optional<std::filesystem::path> file = shared_data(name);
     if (!file) GTEST_SKIP() << "skipped: shared data absent";
     Errors warnings;
     const Result<scene::Model> model = scene::read_with_assimp(*file, formats::UpAxis::file, warnings);

@@ -1,6 +1,7 @@
 #include "reflections/refraction/refracted_objects.h"
 
 #include "base/files.h"
+#include "base/test_data.h"
 #include "base/test_folder.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/render/golden.h"
@@ -46,7 +47,7 @@ TEST_F(RefractedObjectsTest, ABallShowsItsSurroundingsUpsideDown) {
   EXPECT_LT(ball.flip(), 0.08);
   EXPECT_GT(draw(scene, eye, target, Shown::sky).flip(), 3.0 * ball.flip());
   const render::GoldenTolerance tolerance{160, 24, 0.005, 0.2};
-  const Status golden = render::matches_golden(ball.ours, "glass-ball", tolerance, PARVIS_SOURCE_DIR);
+  const Status golden = render::matches_golden(ball.ours, "glass-ball", tolerance, source_folder());
   EXPECT_TRUE(golden) << to_string(golden.errors());
 }
 

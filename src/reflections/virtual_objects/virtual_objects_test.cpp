@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/test_data.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/render/golden.h"
 #include "reflections/reflector_maps/settings.h"
@@ -39,8 +40,7 @@ TEST_F(VirtualObjectsTest, ABallShowsWhatRaysHit) {
   EXPECT_LT(by_virtual_objects, 0.04);
   // Another compiler's last bits move a search's end by less than a tenth of a pixel, which edges may show.
   const render::GoldenTolerance tolerance{160, 24, 0.005, 0.2};
-  const Status golden =
-      render::matches_golden(ball.ours, "virtual-objects-ball", tolerance, PARVIS_SOURCE_DIR);
+  const Status golden = render::matches_golden(ball.ours, "virtual-objects-ball", tolerance, source_folder());
   EXPECT_TRUE(golden) << to_string(golden.errors());
   EXPECT_GT(draw(scene, eye, target, Mirrored::sky).flip(), 5.0 * by_virtual_objects)
       << "the sky alone is reported";

@@ -158,7 +158,7 @@ Bounds bounds_now(const Scene& scene) {
 
 TEST(ObjectAnimation, FiguresWalkAndStayFigures) {
   for (const char* name : {"CesiumMan/CesiumMan.gltf", "RiggedFigure/RiggedFigure.gltf", "Fox/Fox.gltf"}) {
-    const auto file = shared_data(std::string("gltf_animated/") + name, PARVIS_SOURCE_DIR);
+    const auto file = shared_data(std::string("gltf_animated/") + name);
     if (!file) GTEST_SKIP() << "skipped: shared data absent";
     Errors warnings;
     Result<Model> model = read_gltf(*file, warnings);

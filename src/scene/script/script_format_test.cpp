@@ -133,7 +133,7 @@ TEST(ScriptFormat, RandomScriptsKeepTheirMeaningAndCommentsAndFormattingIsDoneOn
 }
 
 TEST(ScriptFormat, TheScenesOfTheHouseKeepTheirMeaningAndStandInItsStyle) {
-  const std::filesystem::path scenes = std::filesystem::path(PARVIS_SOURCE_DIR) / "scenes";
+  const std::filesystem::path scenes = source_folder() / "scenes";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(scenes))
     if (entry.path().extension() == ".xp") {
       expect_kept(*read_file(entry.path()));

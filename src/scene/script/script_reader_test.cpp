@@ -4,6 +4,7 @@
 
 #include "base/files.h"
 #include "base/random.h"
+#include "base/test_data.h"
 #include "scene/script/script_tokens.h"
 #include "scene/script/thesis_examples.h"
 
@@ -151,7 +152,7 @@ TEST(ScriptReader, RandomEditsNeverCrash) {
 TEST(ScriptReader, TheFuzzersSeedsAreScripts) {
   int seeds = 0;
   for (const auto& seed :
-       std::filesystem::directory_iterator(PARVIS_SOURCE_DIR "/src/scene/script/fuzz/corpus/script")) {
+       std::filesystem::directory_iterator(source_folder() / "src/scene/script/fuzz/corpus/script")) {
     const auto nodes = parse_script(*read_file(seed.path()), seed.path().filename().string());
     ASSERT_TRUE(nodes) << to_string(nodes.errors());
     EXPECT_FALSE(nodes->empty());
