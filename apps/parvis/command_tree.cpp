@@ -30,7 +30,6 @@
 #include "graphics/gl/context.h"
 #include "house/stage/output_names.h"
 #include "strict_numbers.h"
-#include "tree_calibrate.h"
 #include "tree_products.h"
 
 namespace parvis {
@@ -425,7 +424,6 @@ void add_tree(CLI::App& app, Chosen& chosen) {
   tree->require_subcommand(1);
   add_synthesize(*tree, chosen);
   add_matte(*tree, chosen);
-  add_tree_calibrate(*tree, chosen);
   add_reconstruct(*tree, chosen);
   add_texture(*tree, chosen);
   add_pack(*tree, chosen);

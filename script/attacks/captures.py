@@ -157,8 +157,6 @@ def beside_link(name, link, verb, expects, says="", distorts=False):
             cameras.write_text("".join(" ".join([words[0], "OPENCV", *words[2:8], "-0.05 0 0 0"]) + "\n" for words in lines))
             for kept in ("capture/packed.txt", "capture/place.facade"):
                 (folder / kept).unlink()
-        write(folder, "spot/a.png", (folder / "capture/oak_000.png").read_bytes())
-        write(folder, "spot/b.png", (folder / "capture/oak_001.png").read_bytes())
         write(folder, "panorama.png", png(64, 32))
         place = folder / link
         place.parent.mkdir(exist_ok=True)
@@ -171,9 +169,8 @@ def beside_link(name, link, verb, expects, says="", distorts=False):
 def link_cases():
     for stage in ("layers", "pack", "report"):
         yield beside_link(f"facade {stage} of a lens with distortion", "capture/pinhole", ["facade", stage, "capture", "--model", "box.obj"], "refused", "pinhole", distorts=True)
-    for link in ("place/faces", "place/masks", "place/stitching"):
+    for link in ("place/faces", "place/masks"):
         yield beside_link("facade panorama of a picture", link, ["facade", "panorama", "panorama.png", "-o", "place"], "refused", link)
-        yield beside_link("facade panorama of a spot", link, ["facade", "panorama", "spot", "-o", "place"], "refused", link)
     yield beside_link("tree synthesize", "other/held_out", ["tree", "synthesize", "oak", "--views", "2", "--held-out", "1", "--size", "16x16", "--samples", "1", "-o", "other"], "refused", "held_out")
     for stage in ("layers", "fill", "pack", "report", "figures"):
         verb = ["facade", stage, "capture", "--model", "box.obj"]
@@ -190,8 +187,6 @@ def link_cases():
     for verb in (["tree", "matte", "capture", "-o", "mattes"], ["tree", "texture", "capture", "oak.volume", "--texels", "4", "-o", "other.tree"],
                  ["tree", "reconstruct", "capture", "--level", "1", "-o", "other.volume"], ["facade", "panorama", "capture", "-o", "place"]):
         yield leading_out(verb, "capture/oak_000.png", "../outside/secret.png", "refused" if verb[1] == "matte" else "either", says="leads out")
-    for link in ("capture/images.txt", "capture/cameras.txt", "capture/points3D.txt"):
-        yield leading_out(["tree", "calibrate", "capture", "--distance", "25", "--focal", "100"], link, "../outside/keep/file")
 
 
 def cases():

@@ -39,7 +39,7 @@ PLACES = [
     (["tree", "export", "oak.glb", "-o", "other.tree"], 2, ".glb"), (["tree", "measure", "oak.volume"], 2, ".volume"),
     (["tree", "organs", "oak.volume", "--trunk", "trunk.glb"], 2, ".volume"), (["tree", "organs", "oak.volume", "--capture", "capture", "--trunk", "trunk.glb"], 4, ""),
     (["tree", "texture", "capture", "oak.volume", "--texels", "4", "-o", "other.tree"], 2, ""), (["tree", "texture", "capture", "oak.volume", "--texels", "4", "-o", "other.tree"], 3, ".volume"),
-    (["tree", "reconstruct", "capture", "--level", "1", "-o", "other.volume"], 2, ""), (["tree", "calibrate", "capture", "--distance", "5", "--focal", "100"], 2, ""),
+    (["tree", "reconstruct", "capture", "--level", "1", "-o", "other.volume"], 2, ""),
     (["tree", "matte", "capture", "-o", "mattes"], 2, ""), (["tree", "matte", "capture", "--zones", "zones", "-o", "mattes"], 4, ""),
     (["facade", "pack", "capture", "--model", "box.obj"], 2, ""), (["facade", "pack", "capture", "--model", "box.obj"], 4, ".obj"),
     (["facade", "layers", "capture", "--model", "box.obj"], 4, ".glb"), (["facade", "fill", "capture", "--model", "box.obj"], 2, ""), (["facade", "report", "capture", "--model", "box.obj"], 2, ""),
