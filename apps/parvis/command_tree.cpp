@@ -9,11 +9,11 @@
 #include <memory>
 
 #include "base/image_io.h"
+#include "base/kept_parts.h"
 #include "base/path_inside.h"
 #include "capture/trees/billboard_textures.h"
 #include "capture/trees/block_table.h"
 #include "capture/trees/capture_folder.h"
-#include "capture/trees/checkpoint.h"
 #include "capture/trees/consistent_views.h"
 #include "capture/trees/judge.h"
 #include "capture/trees/matte_folder.h"
@@ -38,8 +38,8 @@ namespace {
 std::atomic<bool> is_interrupted = false;
 
 /// Beside what a command writes: what it has done until that is written.
-trees::Checkpoint checkpoint_of(const std::filesystem::path& output) {
-  return trees::Checkpoint(house::file_beside(output, ".steps"));
+KeptParts checkpoint_of(const std::filesystem::path& output) {
+  return KeptParts(house::file_beside(output, ".steps"));
 }
 
 struct SynthesizeArguments {
@@ -95,7 +95,7 @@ Status synthesize(SynthesizeArguments arguments) {
   if (!model) return model.errors();
   const scene::Scene scene = trees::capture_scene(*model, arguments.light);
   const Bounds bounds = scene::bounds(*model);
-  const trees::Checkpoint checkpoint = checkpoint_of(arguments.folder);
+  const KeptParts checkpoint = checkpoint_of(arguments.folder);
   const auto write = [&](const std::filesystem::path& folder, const std::vector<Camera>& cameras,
                          const std::string& name) -> Status {
     const Result<std::vector<trees::TreeView>> views =
@@ -135,7 +135,7 @@ Status reconstruct(ReconstructArguments arguments) {
   const Result<trees::MpiSession> session = trees::MpiSession::join();
   if (!session) return session.errors();
   arguments.options.processes = session->processes();
-  const trees::Checkpoint checkpoint = checkpoint_of(arguments.output);
+  const KeptParts checkpoint = checkpoint_of(arguments.output);
   arguments.options.checkpoint = checkpoint.folder();
   arguments.options.is_interrupted = &is_interrupted;
   for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { is_interrupted = true; });
@@ -176,7 +176,7 @@ Status texture(const TextureArguments& arguments) {
     trees::erase_trunk(*views, *volume, organs);
     trunk = *std::move(found), *volume = trees::without(*volume, organs, trees::Organ::trunk);
   }
-  const trees::Checkpoint checkpoint = checkpoint_of(arguments.output);
+  const KeptParts checkpoint = checkpoint_of(arguments.output);
   Result<trees::BillboardTree> tree = trees::textured(*volume, *views, arguments.options, checkpoint);
   if (!tree) return tree.errors();
   tree->trunk = std::move(trunk);

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/kept_parts.h"
 #include "base/path_inside.h"
-#include "base/sealed_file.h"
 
 namespace parvis::facades {
 namespace fs = std::filesystem;
@@ -131,18 +131,19 @@ bool is_proposed(std::uint8_t source) { return source > std::uint8_t(FillSource:
 
 }  // namespace
 
-Result<fs::path> LayerKeeper::file(const fs::path& name) const {
-  return path_inside(folder_, fs::path("layers") / "kept" / name);
+Result<KeptParts> LayerKeeper::parts(const SealedKind& kind, std::string_view extension) const {
+  const Result<fs::path> folder = path_inside(folder_, fs::path("layers") / "kept");
+  if (!folder) return folder.errors();
+  return KeptParts(*folder, kind, extension);
 }
 
 std::optional<std::vector<ImageF>> LayerKeeper::read_found(PlaceLayers& place) const {
-  const Result<fs::path> from = file("all.found");
+  const Result<KeptParts> from = parts(found_kind, ".found");
   if (!from) return std::nullopt;
-  const Result<std::string> content = read_sealed(*from, found_kind);
+  const std::optional<std::string> content = from->find("all", key_);
   if (!content) return std::nullopt;
   Taker taker(*content);
-  if (taker.take<std::uint64_t>() != key_ || taker.take<std::uint32_t>() != place.names.size())
-    return std::nullopt;
+  if (taker.take<std::uint32_t>() != place.names.size()) return std::nullopt;
   for (const std::string& name : place.names)
     if (take_text(taker) != name) return std::nullopt;
   LayerModel model = place.model;
@@ -167,10 +168,10 @@ std::optional<std::vector<ImageF>> LayerKeeper::read_found(PlaceLayers& place) c
 }
 
 Status LayerKeeper::keep_found(const PlaceLayers& place, std::span<const PreparedPhoto> prepared) const {
-  const Result<fs::path> to = file("all.found");
+  const Result<KeptParts> to = parts(found_kind, ".found");
   if (!to) return to.errors();
   std::string bytes;
-  append_value(bytes, key_), append_value(bytes, std::uint32_t(place.names.size()));
+  append_value(bytes, std::uint32_t(place.names.size()));
   for (const std::string& name : place.names) append_text(bytes, name);
   append_model(bytes, place.model);
   for (std::size_t i = 0; i < place.names.size(); ++i) {
@@ -179,19 +180,18 @@ Status LayerKeeper::keep_found(const PlaceLayers& place, std::span<const Prepare
     append_value(bytes, std::uint8_t(!prepared[i].trust.empty()));
     if (!prepared[i].trust.empty()) append_runs(bytes, prepared[i].trust.pixels);
   }
-  return write_sealed(*to, found_kind, bytes);
+  return to->keep("all", key_, bytes);
 }
 
 std::optional<Filled> LayerKeeper::read_filled(const PlaceLayers& place, std::size_t photo,
                                                bool fills) const {
-  const Result<fs::path> from = file(place.names[photo] + (fills ? ".filled" : ".smooth"));
+  const Result<KeptParts> from = parts(filled_kind, fills ? ".filled" : ".smooth");
   if (!from) return std::nullopt;
-  const Result<std::string> content = read_sealed(*from, filled_kind);
+  const std::optional<std::string> content = from->find(place.names[photo], key_);
   if (!content) return std::nullopt;
   Taker taker(*content);
   const LayerPixels& originals = place.originals[photo];
-  if (taker.take<std::uint64_t>() != key_ || taker.take<std::uint32_t>() != originals.size())
-    return std::nullopt;
+  if (taker.take<std::uint32_t>() != originals.size()) return std::nullopt;
   Filled filled{originals, {}, std::vector<Filling>(originals.size(), Filling::none)};
   for (std::size_t l = 0; l < originals.size(); ++l) {
     Image8& sources = filled.sources.emplace_back(originals[l].width, originals[l].height, 1);
@@ -213,11 +213,11 @@ std::optional<Filled> LayerKeeper::read_filled(const PlaceLayers& place, std::si
 }
 
 Status LayerKeeper::keep_filled(const PlaceLayers& place, std::size_t photo, bool fills) const {
-  const Result<fs::path> to = file(place.names[photo] + (fills ? ".filled" : ".smooth"));
+  const Result<KeptParts> to = parts(filled_kind, fills ? ".filled" : ".smooth");
   if (!to) return to.errors();
   const Filled& filled = place.filled[photo];
   std::string bytes;
-  append_value(bytes, key_), append_value(bytes, std::uint32_t(filled.pixels.size()));
+  append_value(bytes, std::uint32_t(filled.pixels.size()));
   for (std::size_t l = 0; l < filled.pixels.size(); ++l) {
     const std::vector<std::uint8_t>& sources = filled.sources[l].pixels;
     append_runs(bytes, sources);
@@ -227,7 +227,7 @@ Status LayerKeeper::keep_filled(const PlaceLayers& place, std::size_t photo, boo
         colours.emplace_back(pixel[0], pixel[1], pixel[2]);
     append_values(bytes, colours);
   }
-  return write_sealed(*to, filled_kind, bytes);
+  return to->keep(place.names[photo], key_, bytes);
 }
 
 }  // namespace parvis::facades

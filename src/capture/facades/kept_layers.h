@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/kept_parts.h"
 #include "capture/facades/place_layers.h"
 #include "capture/facades/prepared_photo.h"
 
@@ -33,7 +34,7 @@ class LayerKeeper {
   Status keep_filled(const PlaceLayers& place, std::size_t photo, bool fills) const;
 
  private:
-  Result<std::filesystem::path> file(const std::filesystem::path& name) const;
+  Result<KeptParts> parts(const SealedKind& kind, std::string_view extension) const;
 
   std::filesystem::path folder_;
   std::uint64_t key_ = 0;

@@ -92,7 +92,7 @@ TEST(KeptLayers, DamagedFilesCountAsAbsentWhateverTheyHold) {
   const PlaceLayers first = place.made();
   const std::string bytes = *read_file(place.found);
   ASSERT_TRUE(write_file(place.found, bytes.substr(0, bytes.size() / 2)));
-  ASSERT_TRUE(write_file(place.filled(1), "no filling"));
+  ASSERT_TRUE(write_file(place.filled(1), "PVFILL_1 and no filling"));
   expect_equal(first, place.made());
   // A stranger's file with a seal of its own must not lead outside of any list: it is refused, or taken with
   // the numbers that it holds.

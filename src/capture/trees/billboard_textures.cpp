@@ -253,11 +253,11 @@ int chosen_texels_per_side(const BillboardTree& tree, const TreeVolume& volume,
 
 BillboardTree textured(const TreeVolume& volume, std::span<const TreeView> views,
                        const TextureOptions& options) {
-  return *textured(volume, views, options, Checkpoint());  // what keeps nothing cannot fail
+  return *textured(volume, views, options, KeptParts());  // what keeps nothing cannot fail
 }
 
 Result<BillboardTree> textured(const TreeVolume& volume, std::span<const TreeView> views,
-                               const TextureOptions& options, const Checkpoint& checkpoint) {
+                               const TextureOptions& options, const KeptParts& checkpoint) {
   BillboardTree tree = bare_billboards(volume, options.parent_levels);
   const KeptTextures kept(checkpoint, volume, options);
   TextureOptions chosen = options;

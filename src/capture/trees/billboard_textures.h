@@ -4,9 +4,9 @@
 #include <optional>
 #include <span>
 
+#include "base/kept_parts.h"
 #include "base/result.h"
 #include "capture/trees/billboard_tree.h"
-#include "capture/trees/checkpoint.h"
 
 namespace parvis::trees {
 
@@ -45,7 +45,7 @@ BillboardTree textured(const TreeVolume& volume, std::span<const TreeView> views
 /// The same, with progress. The textures of each photograph are kept when they are made, and found again by
 /// the same call: `checkpoint` is the caller's to remove. Error: they cannot be kept; those that were stay.
 Result<BillboardTree> textured(const TreeVolume& volume, std::span<const TreeView> views,
-                               const TextureOptions& options, const Checkpoint& checkpoint);
+                               const TextureOptions& options, const KeptParts& checkpoint);
 
 /// The textures of one photograph by 4.5.3, or by one of its two baselines. `texels_per_side` is given.
 BillboardTextures selected_texels(const BillboardTree& tree, const TreeView& view,

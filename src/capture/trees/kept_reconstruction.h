@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "capture/trees/checkpoint.h"
+#include "base/kept_parts.h"
 #include "capture/trees/reconstruction.h"
 
 namespace parvis::trees {
@@ -58,7 +58,7 @@ class StepKeeper {
 
  private:
   const ReconstructionOptions& options_;
-  Checkpoint checkpoint_;  // of the first process
+  KeptParts checkpoint_;  // of the first process
   std::chrono::steady_clock::time_point last_;
 };
 

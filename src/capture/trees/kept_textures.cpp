@@ -41,7 +41,7 @@ bool fits(const BillboardTextures& textures, const BillboardTree& tree) {
 
 }  // namespace
 
-KeptTextures::KeptTextures(const Checkpoint& checkpoint, const TreeVolume& volume,
+KeptTextures::KeptTextures(const KeptParts& checkpoint, const TreeVolume& volume,
                            const TextureOptions& options)
     : checkpoint_(checkpoint) {
   ContentHash hash;

@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
+#include "base/kept_parts.h"
 #include "capture/trees/billboard_textures.h"
-#include "capture/trees/checkpoint.h"
 
 namespace parvis::trees {
 
@@ -14,7 +14,7 @@ namespace parvis::trees {
 class KeptTextures {
  public:
   /// The checkpoint outlives it.
-  KeptTextures(const Checkpoint& checkpoint, const TreeVolume& volume, const TextureOptions& options);
+  KeptTextures(const KeptParts& checkpoint, const TreeVolume& volume, const TextureOptions& options);
 
   /// The side that was chosen for these photographs.
   std::optional<int> find_side(std::span<const TreeView> views) const;
@@ -27,7 +27,7 @@ class KeptTextures {
   Status keep(std::size_t index, const TreeView& view, const BillboardTree& tree) const;
 
  private:
-  const Checkpoint& checkpoint_;
+  const KeptParts& checkpoint_;
   std::uint64_t key_ = 0;  // of the volume and the options
 };
 

@@ -48,7 +48,7 @@ fs::path part(const fs::path& folder, int photograph) {
 TEST(KeptTextures, GoOnFromThosePhotographsThatWereDone) {
   const TestFolder folder;
   const Captured captured;
-  const Checkpoint checkpoint(folder.path() / "steps");
+  const KeptParts checkpoint(folder.path() / "steps");
   const BillboardTree whole = textured(captured.volume, captured.views, options());
   // The third cannot be kept: a folder lies in its place.
   fs::create_directories(part(checkpoint.folder(), 2));
@@ -73,7 +73,7 @@ TEST(KeptTextures, GoOnFromThosePhotographsThatWereDone) {
 
 TEST(KeptTextures, ThoseOfAnotherPhotographVolumeOrMethodAreMadeAfresh) {
   const TestFolder folder;
-  const Checkpoint checkpoint(folder.path() / "steps");
+  const KeptParts checkpoint(folder.path() / "steps");
   Captured captured;
   ASSERT_TRUE(textured(captured.volume, captured.views, options(), checkpoint));
   const auto expect_made_afresh = [&](const TextureOptions& chosen) {

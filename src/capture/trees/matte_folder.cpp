@@ -8,11 +8,11 @@
 #include "base/content_hash.h"
 #include "base/files.h"
 #include "base/image_io.h"
+#include "base/kept_parts.h"
 #include "base/known_names.h"
 #include "base/path_inside.h"
 #include "base/progress.h"
 #include "base/sealed_file.h"
-#include "capture/trees/checkpoint.h"
 
 namespace parvis::trees {
 namespace {
@@ -144,7 +144,7 @@ class MatteFile {
   const MatteFolder& folder_;
   fs::path photograph_, output_;
   std::optional<fs::path> painted_;
-  Checkpoint records_;
+  KeptParts records_;
 };
 
 }  // namespace

@@ -42,7 +42,7 @@ Camera camera_at(const Bounds& tree, float azimuth, float elevation) {
 }
 
 /// A photograph that was kept; none where it has not as many pixels as these options give it.
-std::optional<Image8> kept_picture(const Checkpoint& checkpoint, const std::string& name, std::uint64_t key,
+std::optional<Image8> kept_picture(const KeptParts& checkpoint, const std::string& name, std::uint64_t key,
                                    const CaptureOptions& options) {
   const std::optional<std::string> bytes = checkpoint.find(name, key);
   Image8 picture(options.width, options.height, 4);
@@ -132,12 +132,12 @@ std::uint64_t photograph_key(std::uint64_t shown_scene, const Camera& camera, fl
 
 std::vector<TreeView> photograph_tree(const scene::Scene& scene, std::span<const Camera> cameras,
                                       const std::string& name, const CaptureOptions& options) {
-  return *photograph_tree(scene, cameras, name, options, Checkpoint());  // what keeps nothing cannot fail
+  return *photograph_tree(scene, cameras, name, options, KeptParts());  // what keeps nothing cannot fail
 }
 
 Result<std::vector<TreeView>> photograph_tree(const scene::Scene& scene, std::span<const Camera> cameras,
                                               const std::string& name, const CaptureOptions& options,
-                                              const Checkpoint& checkpoint) {
+                                              const KeptParts& checkpoint) {
   Progress progress("photographing " + name, cameras.size());
   const std::uint64_t shown_scene = checkpoint.keeps_parts() ? scene::scene_key(scene) : 0;
   std::vector<TreeView> views;

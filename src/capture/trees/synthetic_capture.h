@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/kept_parts.h"
 #include "base/result.h"
-#include "capture/trees/checkpoint.h"
 #include "capture/trees/tree_view.h"
 #include "scene/data/scene.h"
 
@@ -49,7 +49,7 @@ std::vector<TreeView> photograph_tree(const scene::Scene& scene, std::span<const
 /// `checkpoint` is the caller's to remove. Error: one cannot be kept; those that were stay.
 Result<std::vector<TreeView>> photograph_tree(const scene::Scene& scene, std::span<const Camera> cameras,
                                               const std::string& name, const CaptureOptions& options,
-                                              const Checkpoint& checkpoint);
+                                              const KeptParts& checkpoint);
 
 /// The hash of all that a photograph depends on. `shown_scene`: scene_key of what it shows.
 std::uint64_t photograph_key(std::uint64_t shown_scene, const Camera& camera, float exposure,

@@ -21,11 +21,11 @@ struct Sitting {
 
   Sitting() { options.width = options.height = 24, options.samples_per_pixel = 2; }
 
-  Result<std::vector<TreeView>> photographs(const Checkpoint& checkpoint = Checkpoint()) const {
+  Result<std::vector<TreeView>> photographs(const KeptParts& checkpoint = KeptParts()) const {
     return photograph_tree(capture_scene(model, light), cameras, "tree", options, checkpoint);
   }
   /// Whether those with a checkpoint are those without.
-  void expect_same(const Checkpoint& checkpoint) const {
+  void expect_same(const KeptParts& checkpoint) const {
     const Result<std::vector<TreeView>> found = photographs(checkpoint), plain = photographs();
     ASSERT_TRUE(found.ok()) << to_string(found.errors());
     ASSERT_EQ(found->size(), plain->size());
@@ -39,7 +39,7 @@ struct Sitting {
 
 TEST(SyntheticCapture, GoesOnFromThePhotographsThatWereTaken) {
   const TestFolder folder;
-  const Checkpoint checkpoint(folder.path() / "steps");
+  const KeptParts checkpoint(folder.path() / "steps");
   const Sitting sitting;
   sitting.expect_same(checkpoint);
   // The second photograph is replaced by one that nobody would take: it is found, so the first was, too.
@@ -65,7 +65,7 @@ TEST(SyntheticCapture, GoesOnFromThePhotographsThatWereTaken) {
 
 TEST(SyntheticCapture, PhotographsOfOtherOptionsLightOrTreesAreTakenAfresh) {
   const TestFolder folder;
-  const Checkpoint checkpoint(folder.path() / "steps");
+  const KeptParts checkpoint(folder.path() / "steps");
   Sitting sitting;
   sitting.expect_same(checkpoint);
   sitting.options.samples_per_pixel = 3;
@@ -78,7 +78,7 @@ TEST(SyntheticCapture, PhotographsOfOtherOptionsLightOrTreesAreTakenAfresh) {
 
 TEST(SyntheticCapture, APhotographThatCannotBeKeptIsNamed) {
   const TestFolder folder;
-  const Checkpoint checkpoint(folder.path() / "steps");
+  const KeptParts checkpoint(folder.path() / "steps");
   std::filesystem::create_directories(checkpoint.folder() / "tree_001.part");
   const Result<std::vector<TreeView>> ended = Sitting().photographs(checkpoint);
   ASSERT_FALSE(ended.ok());

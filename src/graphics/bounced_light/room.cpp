@@ -46,8 +46,8 @@ void build(const scene::Node& node, scene::SceneBuilder& builder) {
 Result<render::Baked> bake(render::BakeInput& input) {
   const scene::Scene& scene = input.scene();
   if (!scene.data<scene::BouncedSettings>().is_on) return render::Baked();
-  if (TransferCache::folder_of(scene).empty()) return scene::no_baked_folder(scene);
   const TransferCache cache(scene);
+  if (!cache.parts().keeps_parts()) return scene::no_baked_folder(scene);
   if (!cache.read()) {
     Progress progress("tracing bounced light", 1);
     if (Status status = cache.keep(trace_transfer(scene)); !status) return status.errors();
@@ -57,7 +57,7 @@ Result<render::Baked> bake(render::BakeInput& input) {
 }
 
 void forget_others(const scene::Scene& scene, const std::set<std::filesystem::path>& kept) {
-  scene::remove_other_files(TransferCache::folder_of(scene), TransferCache::extension, kept);
+  TransferCache(scene).parts().remove(kept);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/kept_parts.h"
 #include "graphics/bounced_light/transfer.h"
 
 namespace parvis::bounced_light {
@@ -21,15 +22,14 @@ class TransferCache {
   Status keep(const Transfer& transfer) const;
 
   /// Where this state's is kept; empty: nowhere.
-  const std::filesystem::path& file() const { return file_; }
-
-  static constexpr std::string_view extension = ".transfer";  ///< of all files
-  /// Of all states; empty for a scene that was made in memory, or whose folder is a link.
-  static std::filesystem::path folder_of(const scene::Scene& scene);
+  std::filesystem::path file() const { return parts_.file(name_); }
+  /// The files of all states; none of a scene that was made in memory, or whose folder is a link.
+  const KeptParts& parts() const { return parts_; }
 
  private:
-  std::filesystem::path file_;
+  KeptParts parts_;
   std::uint64_t key_ = 0;
+  std::string name_;
 };
 
 /// Traces what light of any hour hits in the scene as it stands.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "base/kept_parts.h"
 #include "reflections/reference_maps/map_file.h"
 #include "scene/data/scene.h"
 
@@ -17,7 +18,7 @@ class MapCache {
   explicit MapCache(const scene::Scene& scene);
 
   /// Of this state of the scene; empty for a scene that was made in memory.
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return parts_.folder(); }
   std::filesystem::path file(std::size_t number) const;
 
   /// A map, if it is there, whole and of this state. Unfit ones are reported on standard error.
@@ -27,10 +28,10 @@ class MapCache {
   /// Reports on standard error that there are maps of other states of the scene, but none of this one.
   void report_other_states() const;
   /// An error, too, where the folder is a link: nothing is kept there.
-  Status write(MapFile map) const;
+  Status write(const MapFile& map) const;
 
  private:
-  std::filesystem::path folder_;
+  KeptParts parts_;
   std::uint64_t key_ = 0;
   std::size_t max_places_ = 0;
 };

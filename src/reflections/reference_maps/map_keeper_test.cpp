@@ -17,7 +17,7 @@ class MapKeeperTest : public ::testing::Test {
     map_plan(scene_).places = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
   }
   MapFile map(std::uint32_t number) const {
-    return {0, map_plan(scene_).places, number, 2, {{1, 2, 3, std::uint8_t(number)}, {9, 8}}};
+    return {map_plan(scene_).places, number, 2, {{1, 2, 3, std::uint8_t(number)}, {9, 8}}};
   }
   /// What is reported while two maps are kept.
   std::string keep_two() {

@@ -167,7 +167,7 @@ Result<std::vector<glm::vec3>> keep_maps(const scene::Scene& scene, const Height
   };
   work.keep = [&](std::uint32_t number, std::string_view bytes) -> Status {
     Taker taker(bytes);
-    MapFile file{0, places, number, taker.take<std::uint32_t>(), {}};
+    MapFile file{places, number, taker.take<std::uint32_t>(), {}};
     file.textures.resize(taker.take<std::uint32_t>());
     for (std::vector<std::uint8_t>& texture : file.textures) texture = taker.take_values<std::uint8_t>();
     progress.advance();

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int version = 4;  // of how reflectors are made: raise it when old ones no longer serve
-constexpr std::string_view extension = ".reflector";
+constexpr SealedKind kind{"PARVISR3", "reflector"};
 constexpr std::size_t max_patches = 200;
 
 std::uint64_t key_of(const ReflectorSource& source) {
@@ -28,6 +28,9 @@ std::uint64_t key_of(const ReflectorSource& source) {
   hash.add(max_patches);
   return hash.value();
 }
+
+/// Its file's, without the extension.
+std::string name_of(const ReflectorSource& source) { return fmt::format("{:016x}", key_of(source)); }
 
 /// A reflector that the scene looks up, and the consequence if it cannot be made.
 struct WantedReflector {
@@ -53,45 +56,38 @@ std::vector<WantedReflector> wanted_reflectors(const scene::Scene& scene) {
 
 }  // namespace
 
-ReflectorCache::ReflectorCache(const scene::Scene& scene) {
-  folder_ = scene::baked_folder(scene, "reflectors");
-}
+ReflectorCache::ReflectorCache(const scene::Scene& scene)
+    : parts_(scene::baked_folder(scene, "reflectors"), kind, ".reflector") {}
 
-fs::path ReflectorCache::file(const ReflectorSource& source) const {
-  if (folder_.empty()) return {};
-  return folder_ / fmt::format("{:016x}{}", key_of(source), extension);
+fs::path ReflectorCache::file(const ReflectorSource& source) const { return parts_.file(name_of(source)); }
+
+std::optional<Reflector> ReflectorCache::stored(const ReflectorSource& source) const {
+  constexpr std::string_view consequence = "the reflector is rebuilt";
+  const std::optional<std::string> bytes = parts_.find(name_of(source), key_of(source), consequence);
+  if (!bytes) return std::nullopt;
+  std::optional<Reflector> reflector = reflector_of(*bytes);
+  if (!reflector) fmt::print(stderr, "warning: {}; {}\n", cut_short(file(source)).message, consequence);
+  return reflector;
 }
 
 Result<Reflector> ReflectorCache::reflector(const ReflectorSource& source) const {
-  std::error_code code;
-  const fs::path kept = file(source);
-  if (!kept.empty() && fs::exists(kept, code)) {
-    Result<Reflector> read = read_reflector_file(kept, key_of(source));
-    if (read) return read;
-    fmt::print(stderr, "warning: {}; the reflector is rebuilt\n", read.errors().front().message);
-  }
+  if (std::optional<Reflector> reflector = stored(source)) return *std::move(reflector);
   return make_reflector(source.mesh, source.name, source.side, max_patches);
 }
 
-bool ReflectorCache::has(const ReflectorSource& source) const {
-  return !folder_.empty() && bool(read_reflector_file(file(source), key_of(source)));
-}
-
-Status ReflectorCache::keep(const ReflectorSource& source, std::string_view content) const {
-  std::error_code code;
-  if (folder_.empty())
+Status ReflectorCache::keep(const ReflectorSource& source, std::string_view bytes) const {
+  if (!parts_.keeps_parts())
     return error("{}: its folder of reflectors is a link; nothing is kept there", source.name);
-  fs::create_directories(folder_, code);
-  return write_reflector_content(file(source), content);
+  return parts_.keep(name_of(source), key_of(source), bytes);
 }
 
 Result<BakedReflectors> bake_reflectors(const scene::Scene& scene, const machines::Processes& processes) {
   const ReflectorCache cache(scene);
   const std::vector<WantedReflector> wanted = wanted_reflectors(scene);
-  BakedReflectors baked{cache.folder(), {}};
+  BakedReflectors baked{cache.parts(), {}};
   machines::Tasks to_do;
   for (std::uint32_t i = 0; i < wanted.size() && processes.is_first(); ++i)
-    if (cache.has(wanted[i].source))
+    if (cache.stored(wanted[i].source))
       baked.files.insert(cache.file(wanted[i].source));
     else
       to_do.push_back(i);
@@ -100,8 +96,8 @@ Result<BakedReflectors> bake_reflectors(const scene::Scene& scene, const machine
   work.uses_threads = false;  // each takes all cores
   work.run = [&](std::uint32_t i) -> Result<std::string> {
     const ReflectorSource& source = wanted[i].source;
-    const Result<Reflector> made = cache.reflector(source);
-    if (made) return reflector_content(key_of(source), *made);
+    const Result<Reflector> made = make_reflector(source.mesh, source.name, source.side, max_patches);
+    if (made) return bytes_of(*made);
     fmt::print(stderr, "warning: {}; {}\n", to_string(made.errors().front()), wanted[i].without);
     return std::string();
   };
@@ -115,8 +111,6 @@ Result<BakedReflectors> bake_reflectors(const scene::Scene& scene, const machine
   return baked;
 }
 
-void forget_other_reflectors(const BakedReflectors& kept) {
-  scene::remove_other_files(kept.folder, extension, kept.files);
-}
+void forget_other_reflectors(const BakedReflectors& kept) { kept.parts.remove(kept.files); }
 
 }  // namespace parvis::reflector_maps

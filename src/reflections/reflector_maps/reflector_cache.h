@@ -5,6 +5,7 @@
 #include <set>
 #include <string_view>
 
+#include "base/kept_parts.h"
 #include "machines/processes.h"
 #include "reflections/reflector_maps/reflector_map.h"
 #include "reflections/reflector_maps/reflector_sources.h"
@@ -19,23 +20,23 @@ class ReflectorCache {
   /// As it was kept, or made now. Reports on standard error what cannot be used of what was kept. Errors as
   /// make_reflector's.
   Result<Reflector> reflector(const ReflectorSource& source) const;
-  /// Is it kept, and fit?
-  bool has(const ReflectorSource& source) const;
-  /// Keeps a reflector's content (reflector_file.h).
-  Status keep(const ReflectorSource& source, std::string_view content) const;
+  /// The stored reflector; none where it is absent, and, with a warning, where it is damaged.
+  std::optional<Reflector> stored(const ReflectorSource& source) const;
+  /// Stores a reflector's bytes (reflector_file.h).
+  Status keep(const ReflectorSource& source, std::string_view bytes) const;
 
-  /// Empty for a scene that was made in memory.
-  const std::filesystem::path& folder() const { return folder_; }
+  /// The files of all reflectors of the scene; none of a scene that was made in memory.
+  const KeptParts& parts() const { return parts_; }
   /// Where a reflector is kept; empty: nowhere.
   std::filesystem::path file(const ReflectorSource& source) const;
 
  private:
-  std::filesystem::path folder_;
+  KeptParts parts_;
 };
 
 /// What is kept of a scene, or of several of its states.
 struct BakedReflectors {
-  std::filesystem::path folder;
+  KeptParts parts;
   std::set<std::filesystem::path> files;
 };
 

@@ -68,41 +68,25 @@ class ReflectorCacheTest : public testing::Test {
 };
 
 TEST(ReflectorFile, WhatIsWrittenIsRead) {
-  const TestFolder folder;
   const Reflector written = small_reflector();
-  ASSERT_TRUE(write_reflector_content(folder.path() / "a.reflector", reflector_content(7, written)));
-  const Result<Reflector> read = read_reflector_file(folder.path() / "a.reflector", 7);
-  ASSERT_TRUE(read) << to_string(read.errors());
+  const std::optional<Reflector> read = reflector_of(bytes_of(written));
+  ASSERT_TRUE(read);
   expect_equal(*read, written);
 }
 
-TEST(ReflectorFile, CutShortForeignOrOfAnotherVersionItIsRefusedWithTheReason) {
-  const TestFolder folder;
-  const fs::path file = folder.path() / "a.reflector";
-  ASSERT_TRUE(write_reflector_content(file, reflector_content(7, small_reflector())));
-  const std::string whole = *read_file(file);
-  const auto complaint = [&](const std::string& bytes) {
-    EXPECT_TRUE(write_file(file, bytes));
-    const Result<Reflector> read = read_reflector_file(file, 7);
-    return read ? "" : to_string(read.errors());
-  };
-  for (std::size_t length = 8; length < whole.size(); length += whole.size() / 50)
-    EXPECT_NE(complaint(whole.substr(0, length)).find("cut short or damaged"), std::string::npos);
-  EXPECT_NE(complaint("PARVISR9" + whole.substr(8)).find("another version"), std::string::npos);
-  EXPECT_NE(complaint("PARVISM1" + whole.substr(8)).find("no reflector"), std::string::npos);
+TEST(ReflectorFile, CutShortItIsRefused) {
+  const std::string whole = bytes_of(small_reflector());
+  for (std::size_t length = 0; length < whole.size(); length += 1 + whole.size() / 50)
+    EXPECT_FALSE(reflector_of(whole.substr(0, length))) << length;
 }
 
-TEST(ReflectorFile, OfAnotherReflectorOrWithIndicesThatLieItIsRefused) {
-  const TestFolder folder;
-  const fs::path file = folder.path() / "a.reflector";
+TEST(ReflectorFile, WithIndicesThatLieItIsRefused) {
   const auto is_read = [&](const auto& spoil) {
     Reflector reflector = small_reflector();
     spoil(reflector);
-    EXPECT_TRUE(write_reflector_content(file, reflector_content(7, reflector)));  // the checksum is right
-    return bool(read_reflector_file(file, 7));
+    return bool(reflector_of(bytes_of(reflector)));
   };
   EXPECT_TRUE(is_read([](Reflector&) {}));
-  EXPECT_FALSE(read_reflector_file(file, 8)) << "two reflectors' files exchanged";
   EXPECT_FALSE(is_read([](Reflector& r) { r.mesh.mesh.indices[0] = ~0u; }));
   EXPECT_FALSE(is_read([](Reflector& r) { r.mesh.neighbours[0][1] = 1u << 30; }));
   EXPECT_FALSE(is_read([](Reflector& r) { r.mesh.neighbours.pop_back(); }));
@@ -112,11 +96,44 @@ TEST(ReflectorFile, OfAnotherReflectorOrWithIndicesThatLieItIsRefused) {
   EXPECT_FALSE(is_read([](Reflector& r) { r.maps.resize(r.patches.size() + 1); }));
 }
 
+TEST_F(ReflectorCacheTest, TwoReflectorsFilesExchangedAreRebuilt) {
+  ASSERT_TRUE(bake_reflectors(scene_));
+  const std::string ring = *read_file(file(mirror(0))), ball = *read_file(file(mirror(1)));
+  ASSERT_TRUE(write_file(file(mirror(0)), ball) && write_file(file(mirror(1)), ring));
+  EXPECT_FALSE(ReflectorCache(scene_).stored(mirror(0)));
+  ASSERT_TRUE(bake_reflectors(scene_));
+  EXPECT_EQ(*read_file(file(mirror(0))), ring);
+}
+
+TEST_F(ReflectorCacheTest, EachFlippedByteIsReportedAndTheReflectorRebuilt) {
+  ASSERT_TRUE(bake_reflectors(scene_));
+  const fs::path path = file(mirror(0));
+  const std::string whole = *read_file(path);
+  for (std::size_t at = 0; at < whole.size(); at += 1 + whole.size() / 20) {
+    std::string flipped = whole;
+    flipped[at] = char(flipped[at] ^ 0x10);
+    ASSERT_TRUE(write_file(path, flipped));
+    testing::internal::CaptureStderr();
+    EXPECT_FALSE(ReflectorCache(scene_).stored(mirror(0))) << at;
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("the reflector is rebuilt"), std::string::npos)
+        << at;
+  }
+}
+
+TEST_F(ReflectorCacheTest, AFileThatIsALinkIsNotFollowed) {
+  ASSERT_TRUE(bake_reflectors(scene_));
+  const fs::path path = file(mirror(0)), outside = folder_.path() / "outside";
+  fs::rename(path, outside);
+  fs::create_symlink(outside, path);
+  EXPECT_FALSE(ReflectorCache(scene_).stored(mirror(0)));
+  EXPECT_FALSE(bake_reflectors(scene_)) << "nothing is written through it";
+}
+
 TEST_F(ReflectorCacheTest, NothingIsReadOrWrittenThroughALink) {
   const fs::path elsewhere = fs::path(scene_.file).parent_path() / "elsewhere";
   fs::create_directory(elsewhere);
   fs::create_directory_symlink(elsewhere, fs::path(scene_.file).replace_extension(".baked"));
-  EXPECT_TRUE(ReflectorCache(scene_).folder().empty());
+  EXPECT_FALSE(ReflectorCache(scene_).parts().keeps_parts());
   EXPECT_FALSE(bake_reflectors(scene_));
   EXPECT_TRUE(fs::is_empty(elsewhere));
 }

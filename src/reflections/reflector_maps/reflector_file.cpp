@@ -7,8 +7,6 @@
 namespace parvis::reflector_maps {
 namespace {
 
-constexpr SealedKind kind{"PARVISR3", "reflector"};
-
 // What is written and what is read, in one order: `Archive` does the one or the other.
 
 struct Writer {
@@ -122,27 +120,17 @@ bool is_right(const Reflector& reflector) {
 
 }  // namespace
 
-std::string reflector_content(std::uint64_t key, const Reflector& reflector) {
+std::string bytes_of(const Reflector& reflector) {
   Writer writer;
-  writer.value(key);
   pass(writer, reflector);
   return writer.bytes;
 }
 
-Status write_reflector_content(const std::filesystem::path& file, std::string_view content) {
-  return write_sealed(file, kind, content);
-}
-
-Result<Reflector> read_reflector_file(const std::filesystem::path& file, std::uint64_t key) {
-  const Result<std::string> content = read_sealed(file, kind);
-  if (!content) return content.errors();
-  Reader reader{Taker(*content)};
-  std::uint64_t kept_key = 0;
-  reader.value(kept_key);
-  if (kept_key != key) return error("{}: is of another reflector", file.string());
+std::optional<Reflector> reflector_of(std::string_view bytes) {
+  Reader reader{Taker(bytes)};
   Reflector reflector;
   pass(reader, reflector);
-  if (!reader.taker.is_at_end() || !is_right(reflector)) return cut_short(file);
+  if (!reader.taker.is_at_end() || !is_right(reflector)) return std::nullopt;
   return reflector;
 }
 

@@ -11,13 +11,13 @@ Result<render::Baked> bake(render::BakeInput& input) {
   if (!baked) return baked.errors();
   render::Baked step;
   if (!baked->files.empty())
-    step.summary = fmt::format("{} reflectors: {}", baked->files.size(), baked->folder.string());
+    step.summary = fmt::format("{} reflectors: {}", baked->files.size(), baked->parts.folder().string());
   step.kept = std::move(baked->files);
   return step;
 }
 
 void forget_others(const scene::Scene& scene, const std::set<std::filesystem::path>& kept) {
-  forget_other_reflectors({ReflectorCache(scene).folder(), kept});
+  forget_other_reflectors({ReflectorCache(scene).parts(), kept});
 }
 
 }  // namespace

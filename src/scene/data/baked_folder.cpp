@@ -1,7 +1,5 @@
 #include "scene/data/baked_folder.h"
 
-#include <vector>
-
 namespace parvis::scene {
 namespace fs = std::filesystem;
 
@@ -13,14 +11,6 @@ fs::path baked_folder(const Scene& scene, const fs::path& inside) {
   if (inside.empty()) return folder;
   folder /= inside;
   return fs::is_symlink(fs::symlink_status(folder, code)) ? fs::path() : folder;
-}
-
-void remove_other_files(const fs::path& folder, std::string_view extension, const std::set<fs::path>& kept) {
-  std::error_code code;
-  std::vector<fs::path> others;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
-    if (entry.path().extension() == extension && !kept.contains(entry.path())) others.push_back(entry.path());
-  for (const fs::path& other : others) fs::remove(other, code);
 }
 
 Error no_baked_folder(const Scene& scene) {

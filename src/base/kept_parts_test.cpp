@@ -1,21 +1,21 @@
-#include "capture/trees/checkpoint.h"
+#include "base/kept_parts.h"
 
 #include <gtest/gtest.h>
 
 #include "base/files.h"
 #include "base/test_folder.h"
 
-namespace parvis::trees {
+namespace parvis {
 namespace {
 namespace fs = std::filesystem;
 
-TEST(Checkpoint, FindsWhatItHasKeptUnderItsKeyAlone) {
+TEST(KeptParts, FindsWhatItHasKeptUnderItsKeyAlone) {
   const TestFolder folder;
-  const Checkpoint checkpoint(folder.path() / "oak.steps");
-  EXPECT_FALSE(checkpoint.find("opacity", 7));
-  ASSERT_TRUE(checkpoint.keep("opacity", 7, "seven"));
-  ASSERT_TRUE(checkpoint.keep("colours", 7, ""));
-  const Checkpoint again(folder.path() / "oak.steps");
+  const KeptParts parts(folder.path() / "oak.steps");
+  EXPECT_FALSE(parts.find("opacity", 7));
+  ASSERT_TRUE(parts.keep("opacity", 7, "seven"));
+  ASSERT_TRUE(parts.keep("colours", 7, ""));
+  const KeptParts again(folder.path() / "oak.steps");
   EXPECT_EQ(again.find("opacity", 7), "seven");
   EXPECT_EQ(again.find("colours", 7), "");
   EXPECT_FALSE(again.find("opacity", 8)) << "other work";
@@ -24,65 +24,65 @@ TEST(Checkpoint, FindsWhatItHasKeptUnderItsKeyAlone) {
   EXPECT_FALSE(again.find("opacity", 7)) << "replaced";
 }
 
-TEST(Checkpoint, WithoutAFolderKeepsNothing) {
-  const Checkpoint none;
+TEST(KeptParts, WithoutAFolderKeepsNothing) {
+  const KeptParts none;
   EXPECT_FALSE(none.keeps_parts());
   EXPECT_TRUE(none.keep("opacity", 7, "seven"));
   EXPECT_FALSE(none.find("opacity", 7));
 }
 
-TEST(Checkpoint, APartThatIsCutShortDoesNotCount) {
+TEST(KeptParts, APartThatIsCutShortDoesNotCount) {
   const TestFolder folder;
-  const Checkpoint checkpoint(folder.path());
-  ASSERT_TRUE(checkpoint.keep("opacity", 7, "seven"));
+  const KeptParts parts(folder.path());
+  ASSERT_TRUE(parts.keep("opacity", 7, "seven"));
   const fs::path file = folder.path() / "opacity.part";
   fs::resize_file(file, fs::file_size(file) - 1);
-  EXPECT_FALSE(checkpoint.find("opacity", 7));
-  EXPECT_TRUE(checkpoint.keep("opacity", 7, "seven")) << "it is replaced";
-  EXPECT_EQ(checkpoint.find("opacity", 7), "seven");
+  EXPECT_FALSE(parts.find("opacity", 7));
+  EXPECT_TRUE(parts.keep("opacity", 7, "seven")) << "it is replaced";
+  EXPECT_EQ(parts.find("opacity", 7), "seven");
 }
 
-TEST(Checkpoint, SomebodysOwnFileIsNeitherReplacedNorRemoved) {
+TEST(KeptParts, SomebodysOwnFileIsNeitherReplacedNorRemoved) {
   const TestFolder folder;
   const fs::path own = folder.write("oak.steps/opacity.part", "a part of a novel");
-  const Checkpoint checkpoint(own.parent_path());
-  const Status status = checkpoint.keep("opacity", 7, "seven");
+  const KeptParts parts(own.parent_path());
+  const Status status = parts.keep("opacity", 7, "seven");
   ASSERT_FALSE(status);
   EXPECT_NE(to_string(status.errors()).find("opacity.part"), std::string::npos);
-  ASSERT_TRUE(checkpoint.keep("colours", 7, "seven"));
-  checkpoint.remove();
+  ASSERT_TRUE(parts.keep("colours", 7, "seven"));
+  parts.remove();
   EXPECT_FALSE(fs::exists(own.parent_path() / "colours.part"));
   EXPECT_EQ(*read_file(own), "a part of a novel");
 }
 
-TEST(Checkpoint, NothingGoesThroughALink) {
+TEST(KeptParts, NothingGoesThroughALink) {
   const TestFolder folder;
   const fs::path elsewhere = folder.path() / "elsewhere", link = folder.path() / "oak.steps";
-  ASSERT_TRUE(Checkpoint(elsewhere).keep("opacity", 7, "seven"));
+  ASSERT_TRUE(KeptParts(elsewhere).keep("opacity", 7, "seven"));
   fs::create_directory_symlink(elsewhere, link);
-  const Checkpoint linked(link);
+  const KeptParts linked(link);
   EXPECT_FALSE(linked.find("opacity", 7));
   EXPECT_FALSE(linked.keep("colours", 7, "eight"));
   linked.remove();
-  EXPECT_EQ(Checkpoint(elsewhere).find("opacity", 7), "seven");
+  EXPECT_EQ(KeptParts(elsewhere).find("opacity", 7), "seven");
 
   const fs::path secret = folder.write("secret.part", "");
-  const Checkpoint inside(folder.path() / "steps");
+  const KeptParts inside(folder.path() / "steps");
   ASSERT_TRUE(inside.keep("colours", 7, "seven"));
   fs::create_symlink(secret, folder.path() / "steps" / "opacity.part");
   EXPECT_FALSE(inside.keep("opacity", 7, "eight"));
   EXPECT_EQ(*read_file(secret), "");
 }
 
-TEST(Checkpoint, RemovedItLeavesNothing) {
+TEST(KeptParts, RemovedItLeavesNothing) {
   const TestFolder folder;
-  const Checkpoint checkpoint(folder.path() / "oak.steps");
-  ASSERT_TRUE(checkpoint.keep("opacity", 7, "seven"));
-  ASSERT_TRUE(checkpoint.keep("colours", 7, "seven"));
+  const KeptParts parts(folder.path() / "oak.steps");
+  ASSERT_TRUE(parts.keep("opacity", 7, "seven"));
+  ASSERT_TRUE(parts.keep("colours", 7, "seven"));
   folder.write("oak.steps/.partial-0123abcd-finer.part", "");  // as a program leaves it that is killed
-  checkpoint.remove();
+  parts.remove();
   EXPECT_FALSE(fs::exists(folder.path() / "oak.steps"));
 }
 
 }  // namespace
-}  // namespace parvis::trees
+}  // namespace parvis
