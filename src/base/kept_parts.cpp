@@ -25,7 +25,8 @@ Status check_place(const fs::path& folder, const fs::path& file, const SealedKin
   if (!front) return front.errors();
   // A program that was killed may have left an empty one; versions differ in the last character.
   if (!front->empty() && !front->starts_with(kind.magic.substr(0, kind.magic.size() - 1)))
-    return error("{}: is no {} and is not replaced; remove it, or choose another output", file.string(), kind.name);
+    return error("{}: is no {} and is not replaced; remove it, or choose another output", file.string(),
+                 kind.name);
   return Done{};
 }
 
