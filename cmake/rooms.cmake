@@ -78,8 +78,7 @@ endif()
 
 # Sets `result` to the names of all rooms of a floor below `floor`.
 function(parvis_rooms_below floor result)
-  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/*/CMakeLists.txt ${CMAKE_SOURCE_DIR}/src/*/*/CMakeLists.txt
-                                    ${CMAKE_SOURCE_DIR}/src/*/*/*/CMakeLists.txt)
+  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/*/CMakeLists.txt ${CMAKE_SOURCE_DIR}/src/*/*/CMakeLists.txt)
   set(names)
   foreach(file ${files})
     file(STRINGS ${file} line REGEX "^parvis_room\\(")

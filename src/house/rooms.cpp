@@ -1,8 +1,6 @@
 #include "house/rooms.h"
 
-#include "capture/facades/bench/facades_bench.h"
 #include "capture/facades/room.h"
-#include "capture/trees/bench/trees_bench.h"
 #include "capture/trees/room.h"
 #include "capture/view_dependent_objects/room.h"
 #include "formats/city_models/room.h"
@@ -10,22 +8,16 @@
 #include "formats/ifc/room.h"
 #include "formats/inventor/room.h"
 #include "formats/meshes/room.h"
-#include "formats/readers/bench/import_export_bench.h"
 #include "formats/terrain/room.h"
 #include "graphics/bounced_light/room.h"
 #include "graphics/lamps/room.h"
-#include "graphics/light/bench/light_bench.h"
 #include "graphics/light/room.h"
 #include "graphics/lit_objects/room.h"
-#include "graphics/render/bench/frame_bench.h"
 #include "graphics/shadows/room.h"
 #include "life/traffic/room.h"
-#include "life/vegetation/bench/vegetation_bench.h"
 #include "life/vegetation/room.h"
-#include "machines/bench/processes_bench.h"
 #include "places/dressing/room.h"
 #include "places/kerbside/room.h"
-#include "reflections/environment_rays/bench/multiple_environment_maps_bench.h"
 #include "reflections/environment_rays/room.h"
 #include "reflections/local_maps/room.h"
 #include "reflections/methods/registry.h"
@@ -34,57 +26,35 @@
 #include "reflections/reflector_maps/room.h"
 #include "reflections/refraction/room.h"
 #include "reflections/traced/room.h"
-#include "reflections/virtual_objects/bench/curved_reflectors_bench.h"
 #include "reflections/virtual_objects/room.h"
 #include "scene/action/room.h"
 #include "scene/roads/room.h"
 #include "scene/script/room.h"
-#include "viewer/bench/window_bench.h"
 
 namespace parvis::house {
 namespace {
 
 /// One line per room. The scene reference lists node types, and --help methods, in this order.
 constexpr Furnish rooms[]{
-    script::furnish,
-    gltf::furnish,
-    city_models::furnish,
-    ifc::furnish,
-    inventor::furnish,
-    terrain::furnish,
+    script::furnish,          gltf::furnish,
+    city_models::furnish,     ifc::furnish,
+    inventor::furnish,        terrain::furnish,
     meshes::furnish,
     dressing::furnish,  // before roads: see its docstring
-    roads::furnish,
-    traffic::furnish,
+    roads::furnish,           traffic::furnish,
     light::furnish,
     kerbside::furnish,  // after roads
     action::furnish,
     shadows::furnish,        // after light, whose shadows it replaces
     lamps::furnish,          // after shadows: its light is laid over that one
     bounced_light::furnish,  // likewise; before what is baked in its light
-    probes::furnish,
-    environment_rays::furnish,
-    traced::furnish,
-    local_maps::furnish,
-    reflector_maps::furnish,
-    reference_maps::furnish,
-    virtual_objects::furnish,
-    refraction::furnish,
+    probes::furnish,          environment_rays::furnish,
+    traced::furnish,          local_maps::furnish,
+    reflector_maps::furnish,  reference_maps::furnish,
+    virtual_objects::furnish, refraction::furnish,
     lit_objects::furnish,  // after all processes that move things
-    facades::furnish,
-    trees::furnish,
-    vegetation::furnish,
-    view_dependent_objects::furnish,
-    bench::furnish_frame,
-    bench::furnish_window,
-    bench::furnish_processes,
-    bench::furnish_import_export,
-    bench::furnish_multiple_environment_maps,
-    bench::furnish_curved_reflectors,
-    bench::furnish_light,
-    bench::furnish_vegetation,
-    bench::furnish_facades,
-    bench::furnish_trees,
+    facades::furnish,         trees::furnish,
+    vegetation::furnish,      view_dependent_objects::furnish,
 };
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <span>
 
 #include "base/house.h"
-#include "bench/benches.h"
 #include "graphics/render/drawables.h"
 #include "reflections/methods/registry.h"
 #include "scene/script/node_registry.h"
@@ -26,7 +25,5 @@ inline const scene::NodeRegistry& node_registry() { return all_rooms().get<scene
 inline const render::Drawables& drawables() { return all_rooms().get<render::Drawables>(); }
 /// The methods of reflection.
 inline const methods::Registry& method_registry() { return all_rooms().get<methods::Registry>(); }
-/// What `parvis bench` measures.
-inline const bench::Benches& benches() { return all_rooms().get<bench::Benches>(); }
 
 }  // namespace parvis::house

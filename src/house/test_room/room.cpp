@@ -1,7 +1,6 @@
 #include "house/test_room/room.h"
 
 #include "base/files.h"
-#include "bench/benches.h"
 #include "graphics/render/bake_steps.h"
 #include "house/test_room/balloons.h"
 #include "reflections/methods/registry.h"
@@ -102,11 +101,6 @@ void forget_other_volumes(const scene::Scene& scene, const std::set<fs::path>& k
   for (const fs::path& other : others) fs::remove(other, code);
 }
 
-Status measure(const bench::BenchSetup& setup, bench::Report& report) {
-  report.add("node_types", double(setup.house.get<scene::NodeRegistry>().types().size()));
-  return Done{};
-}
-
 }  // namespace
 
 void furnish(House& house) {
@@ -115,7 +109,6 @@ void furnish(House& house) {
   house.get<methods::Registry>().add(glow_method());
   house.get<render::BakeSteps>().add(
       {.name = "volume of balloons", .run = bake_volume, .forget_others = forget_other_volumes});
-  house.get<bench::Benches>().add({"balloons", "the number of node types", measure});
 }
 
 }  // namespace parvis::test_room

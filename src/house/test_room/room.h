@@ -1,5 +1,5 @@
 // A room that nothing names: the test that a room joins by its own folder and one line in house/rooms.cpp.
-// Balloons: mirror balls that rise when a message says so, a reflection method, a bake step and a bench.
+// Balloons: mirror balls that rise when a message says so, a reflection method and a bake step.
 #pragma once
 
 #include "base/house.h"

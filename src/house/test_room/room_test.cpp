@@ -1,12 +1,11 @@
 // One furnish function; then scripts name the node and the method, messages reach the process, and parvis's
-// loops run the bake step and the bench.
+// loop runs the bake step.
 #include "house/test_room/room.h"
 
 #include <gtest/gtest.h>
 
 #include "base/files.h"
 #include "base/test_folder.h"
-#include "bench/benches.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/render/bake_steps.h"
@@ -117,24 +116,10 @@ TEST_F(TestRoomTest, WhatIsBakedIsLitAsPicturesAre) {
   EXPECT_EQ(lights_made, 1);
 }
 
-TEST_F(TestRoomTest, ItsBenchIsRunByName) {
-  const bench::Bench* found = house_.get<bench::Benches>().find("balloons");
-  ASSERT_TRUE(found);
-  bench::Report report(found->name);
-  ASSERT_TRUE(found->run({house_, true}, report));
-  ASSERT_TRUE(report.write(folder_.path() / "report.json"));
-  const Result<std::string> json = read_file(folder_.path() / "report.json");
-  ASSERT_TRUE(json);
-  EXPECT_NE(json->find(fmt::format("\"node_types\": {}", node_registry().types().size() + 1)),
-            std::string::npos)
-      << *json;
-}
-
 TEST_F(TestRoomTest, WithoutItNothingOfItIsKnown) {
   const Result<Play> play = open_play(all_rooms(), folder_.write("scene.xp", script), {});
   ASSERT_FALSE(play);
   EXPECT_NE(to_string(play.errors()).find("balloon"), std::string::npos);
-  EXPECT_EQ(benches().find("balloons"), nullptr);
 }
 
 }  // namespace

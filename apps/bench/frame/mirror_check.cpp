@@ -1,0 +1,175 @@
+#include "bench/frame/mirror_check.h"
+
+#include <cmath>
+
+#include "base/random.h"
+#include "bench/flip_between.h"
+#include "graphics/render/test_room.h"
+#include "graphics/shading/tone_curve.h"
+#include "reflections/methods/frame.h"
+#include "reflections/methods/settings.h"
+#include "reflections/probes/methods.h"
+
+namespace parvis::bench {
+namespace {
+
+constexpr int map_resolution = 1024;
+// A map has one centre: its error falls with distance. Far walls leave what this check is for: directions,
+// faces, filters.
+constexpr float far_radii = 2000.0f;
+constexpr float near_radii = 50.0f;
+constexpr int width = 1280, height = 720;
+
+Mesh ball() {
+  constexpr int rings = 96, sectors = 192;
+  Mesh mesh;
+  for (int r = 0; r <= rings; ++r)
+    for (int s = 0; s <= sectors; ++s) {
+      const float polar = 3.14159265f * float(r) / rings, azimuth = 6.2831853f * float(s) / sectors;
+      const glm::vec3 n(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+                        std::cos(polar));
+      mesh.positions.push_back(n);
+      mesh.normals.push_back(n);
+      mesh.uvs.emplace_back(0.0f);
+    }
+  for (std::uint32_t r = 0; r < rings; ++r)
+    for (std::uint32_t s = 0; s < sectors; ++s) {
+      const std::uint32_t a = r * (sectors + 1) + s, b = a + sectors + 1;
+      mesh.indices.insert(mesh.indices.end(), {a, b, b + 1, a, b + 1, a + 1});
+    }
+  return mesh;
+}
+
+/// A cube of half size `half`; turned inside out it is a room.
+Mesh cube(float half, bool is_room) {
+  Mesh mesh;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float side : {-1.0f, 1.0f}) {
+      glm::vec3 n(0.0f), u(0.0f);
+      n[axis] = side, u[(axis + 1) % 3] = 1.0f;
+      const glm::vec3 v = glm::cross(n, u);
+      const std::uint32_t first = std::uint32_t(mesh.positions.size());
+      for (const glm::vec2 corner :
+           {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+        mesh.positions.push_back(half * (n + corner.x * u + corner.y * v));
+        mesh.normals.push_back(is_room ? -n : n);
+        // each side of the room shows another part of the picture
+        const glm::vec2 tile(float(axis), side > 0.0f ? 1.0f : 0.0f);
+        mesh.uvs.push_back((tile + 0.5f * corner + 0.5f) / glm::vec2(3.0f, 2.0f));
+      }
+      if (is_room)
+        mesh.indices.insert(mesh.indices.end(), {first, first + 2, first + 1, first, first + 3, first + 2});
+      else
+        mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
+    }
+  return mesh;
+}
+
+/// Six different walls of soft, coloured patches.
+Image8 wall_picture() {
+  constexpr int cell = 48, across = 8;
+  Image8 picture(3 * cell * across, 2 * cell * across, 4, 255);
+  std::vector<glm::vec3> colours(std::size_t{3 * across} * std::size_t{2 * across});
+  Random random(11);
+  for (glm::vec3& colour : colours)
+    colour = {random.uniform(40, 230), random.uniform(40, 230), random.uniform(40, 230)};
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const glm::vec3 colour =
+          colours[std::size_t(y / cell) * std::size_t{3 * across} + std::size_t(x / cell)];
+      for (int c = 0; c < 3; ++c) picture.at(x, y)[c] = std::uint8_t(colour[c]);
+    }
+  return picture;
+}
+
+scene::Scene mirror_scene(Mesh mirror, float room_half_m) {
+  scene::Material wall;
+  wall.base_colour = glm::vec3(0.0f);
+  wall.roughness = 1.0f;
+  wall.emission = glm::vec3(1.0f);
+  wall.emission_texture = 0;
+  auto room = std::make_shared<scene::Model>();
+  room->textures.push_back({"walls", wall_picture(), true, false});
+  room->materials = {wall};
+  room->parts = {{"room", cube(room_half_m, true), 0, 0, false}};
+
+  auto reflector = render::mirror_box(1.0f);  // for its material
+  reflector->parts = {{"mirror", std::move(mirror), 0, 0, true}};
+
+  scene::Scene scene;
+  scene.sun.irradiance = glm::vec3(0.0f);
+  scene.objects.push_back({"room", room, glm::mat4(1.0f), {}, false, false});
+  scene.objects.push_back({"mirror", reflector, glm::mat4(1.0f), {}, true, true});
+  methods::settings(scene) = {"rerendered_cube_map", map_resolution, false};
+  return scene;
+}
+
+/// The re-rendered map with its -y and +x faces exchanged.
+class SwappedFaces final : public probes::CubeMapReflections {
+ public:
+  void bind(const gl::Program& program, int) override { bind_map(program, map_); }
+
+ private:
+  void update_maps(render::Renderer& renderer, const scene::Scene&,
+                   const std::vector<methods::VisibleReflector>& reflectors) override {
+    for (int face = 0; face < 6; ++face)
+      map_.draw_face(renderer, face, reflectors.front().centre, reflectors.front().object);
+    const gl::Texture kept = gl::texture_2d(GL_RGBA16F, map_resolution, map_resolution);
+    const auto copy = [](GLuint from, GLenum from_target, int from_layer, GLuint to, GLenum to_target,
+                         int to_layer) {
+      glCopyImageSubData(from, from_target, 0, 0, 0, from_layer, to, to_target, 0, 0, 0, to_layer,
+                         map_resolution, map_resolution, 1);
+    };
+    constexpr int first = 0, second = 3;
+    copy(map_.texture(), GL_TEXTURE_CUBE_MAP, first, kept.name(), GL_TEXTURE_2D, 0);
+    copy(map_.texture(), GL_TEXTURE_CUBE_MAP, second, map_.texture(), GL_TEXTURE_CUBE_MAP, first);
+    copy(kept.name(), GL_TEXTURE_2D, 0, map_.texture(), GL_TEXTURE_CUBE_MAP, second);
+    map_.update_levels();
+  }
+
+  methods::CubeMap map_{map_resolution};
+};
+
+Result<double> flip_of(const House& house, const scene::Scene& scene, bool swaps_faces) {
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene, house.get<render::Drawables>(), house.get<render::Lights>().make);
+  if (!renderer) return renderer.errors();
+  std::unique_ptr<methods::Reflections> reflections;
+  if (swaps_faces)
+    reflections = std::make_unique<SwappedFaces>();
+  else
+    reflections = std::make_unique<probes::RerenderedCubeMap>(scene);
+  if (Status status = (*renderer)->set_reflection(reflections.get()); !status) return status.errors();
+  Camera camera;
+  camera.world_from_camera = look_at({1.2f, -3.0f, 0.9f}, {0, 0, 0});
+  const render::EyeView view{camera, width, height};
+  if (Status status = methods::draw_frame(**renderer, scene, reflections.get(), view); !status)
+    return status.errors();
+  const Image8 drawn = (*renderer)->read_picture(scene.exposure);
+  reference::TraceOptions options;
+  options.progress = "tracing mirrors";
+  const reference::TracedPicture truth = methods::trace_frame(**renderer, scene, view, options);
+  return flip_between(drawn, shading::tone_mapped_picture(truth.radiance, scene.exposure), truth.mirror_mask);
+}
+
+}  // namespace
+
+Result<MirrorFlips> mirror_flips(const House& house) {
+  const Mesh box = cube(0.9f, false);
+  MirrorFlips flips;
+  const auto measure = [&house](Mesh mirror, float radii, bool swaps_faces, double& flip) -> Status {
+    const Result<double> measured = flip_of(house, mirror_scene(std::move(mirror), radii), swaps_faces);
+    if (!measured) return measured.errors();
+    flip = *measured;
+    return Done{};
+  };
+  for (const Status& status :
+       {measure(ball(), far_radii, false, flips.ball), measure(box, far_radii, false, flips.box),
+        measure(ball(), far_radii, true, flips.ball_faces_swapped),
+        measure(ball(), near_radii, false, flips.ball_at_50_radii),
+        measure(box, near_radii, false, flips.box_at_50_radii)})
+    if (!status) return status.errors();
+  return flips;
+}
+
+}  // namespace parvis::bench
