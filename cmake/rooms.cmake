@@ -3,6 +3,8 @@
 # test program NAME_test. USES names the rooms whose headers may be included: script/check_floors holds
 # the room to it; USES_ALL_BELOW, for the list of rooms alone, names every room of a lower floor. LIBRARIES are seen by the rooms above, too, because headers of the room name them; PRIVATE_LIBRARIES
 # by its sources and tests alone. TEST_USES: rooms of any floor that its tests, fuzzers and test_*.h use beside USES.
+# test_*.cpp are no part of the library: they make parvis_NAME_test_support, which the tests of rooms that use the room, and
+# the benches, link.
 # GLSL files need no mention: the room gl embeds those of every room.
 set(PARVIS_WARNINGS -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wunused -Werror)
 
@@ -93,10 +95,13 @@ function(parvis_room name)
   cmake_parse_arguments(ROOM "USES_ALL_BELOW" "FLOOR" "USES;LIBRARIES;PRIVATE_LIBRARIES;TEST_USES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   file(GLOB tests CONFIGURE_DEPENDS *_test.cpp)
-  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  file(GLOB test_support CONFIGURE_DEPENDS test_*.cpp)
+  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$|/test_[a-z0-9_]*\\.cpp$")
   if(ROOM_USES_ALL_BELOW)
     parvis_rooms_below(${ROOM_FLOOR} ROOM_USES)
   endif()
+  set(tested_rooms ${name} ${ROOM_USES} ${ROOM_TEST_USES})
+  list(TRANSFORM tested_rooms REPLACE "(.+)" "$<TARGET_NAME_IF_EXISTS:parvis_\\1_test_support>")
   list(TRANSFORM ROOM_USES PREPEND parvis_)
   list(TRANSFORM ROOM_TEST_USES PREPEND parvis_)
 
@@ -110,9 +115,17 @@ function(parvis_room name)
     target_precompile_headers(parvis_${name} REUSE_FROM parvis_pch)
   endif()
 
+  if(test_support)
+    add_library(parvis_${name}_test_support STATIC EXCLUDE_FROM_ALL ${test_support})
+    target_link_libraries(parvis_${name}_test_support PUBLIC parvis_${name} ${ROOM_TEST_USES} PRIVATE ${ROOM_PRIVATE_LIBRARIES})
+    if(PARVIS_USES_PCH)
+      target_precompile_headers(parvis_${name}_test_support REUSE_FROM parvis_pch)
+    endif()
+  endif()
+
   if(tests)
     add_executable(${name}_test ${tests})
-    target_link_libraries(${name}_test PRIVATE parvis_${name} ${ROOM_TEST_USES} parvis_test_options ${ROOM_PRIVATE_LIBRARIES} parvis_test_main)
+    target_link_libraries(${name}_test PRIVATE ${tested_rooms} parvis_${name} ${ROOM_TEST_USES} parvis_test_options ${ROOM_PRIVATE_LIBRARIES} parvis_test_main)
     if(PARVIS_USES_PCH)
       target_precompile_headers(${name}_test REUSE_FROM parvis_test_pch)
     endif()

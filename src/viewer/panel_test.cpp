@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/test_data.h"
-#include "graphics/render/golden.h"
+#include "graphics/render/test_golden.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "viewer/test_square.h"

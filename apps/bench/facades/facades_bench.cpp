@@ -9,7 +9,7 @@
 #include "bench/facades/bench_places.h"
 #include "bench/facades/drawing_bench.h"
 #include "bench/facades/filling_bench.h"
-#include "capture/facades/measure_place.h"
+#include "capture/facades/test_measure_place.h"
 
 namespace parvis::bench {
 namespace {

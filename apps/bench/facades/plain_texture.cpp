@@ -44,8 +44,8 @@ class PlainDrawable final : public render::Drawable {
   static Result<std::unique_ptr<render::Drawable>> create(const facades::PackedFacade& facade,
                                                           int first_thing) {
     Result<render::ViewPrograms> programs =
-        render::ViewPrograms::create({"capture/facades/plain_texture_vertex.glsl",
-                                      "capture/facades/plain_texture_surface.glsl",
+        render::ViewPrograms::create({"capture/facades/test_plain_texture_vertex.glsl",
+                                      "capture/facades/test_plain_texture_surface.glsl",
                                       {{"HAS_BACKS", ""}, {"IS_RECORDED", ""}}});
     if (!programs) return programs.errors();
     return std::unique_ptr<render::Drawable>(new PlainDrawable(facade, first_thing, *std::move(programs)));

@@ -11,7 +11,7 @@
 #include "bench/scratch_folder.h"
 #include "bench/street_views.h"
 #include "formats/city_models/city_json.h"
-#include "graphics/render/culling_check.h"
+#include "graphics/render/test_culling_check.h"
 #include "house/stage/stage.h"
 #include "places/paper_city/paper_city.h"
 #include "reflections/methods/settings.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "graphics/light/drawn_sky_check.h"
 #include "graphics/light/sun_and_sky.h"
+#include "graphics/light/test_drawn_sky_check.h"
 #include "graphics/render/frame_views.h"
 
 namespace parvis::bench {

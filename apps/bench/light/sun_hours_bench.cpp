@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "bench/light/double_tracer.h"
 #include "graphics/light/sun_study.h"
-#include "graphics/light/worse.h"
+#include "graphics/light/test_worse.h"
 #include "places/paper_city/street_plan.h"
 
 namespace parvis::bench {

@@ -3,8 +3,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/random.h"
-#include "reflections/reflection_search/exact_reflection.h"
 #include "reflections/reflection_search/reflection_search.h"
+#include "reflections/reflection_search/test_exact_reflection.h"
 #include "reflections/reflector_maps/reflector_map.h"
 #include "reflections/virtual_objects/long_edges.h"
 #include "scene/data/test_scene.h"

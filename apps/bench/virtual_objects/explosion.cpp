@@ -7,9 +7,9 @@
 
 #include "base/random.h"
 #include "base/test_directions.h"
-#include "reflections/reflection_search/ellipsoid.h"
-#include "reflections/reflection_search/exact_reflection.h"
 #include "reflections/reflection_search/reflection_search.h"
+#include "reflections/reflection_search/test_ellipsoid.h"
+#include "reflections/reflection_search/test_exact_reflection.h"
 #include "reflections/reflector_maps/reflector_map.h"
 #include "scene/data/test_scene.h"
 

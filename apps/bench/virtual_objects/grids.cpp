@@ -10,9 +10,9 @@
 #include "graphics/shading/sky.h"
 #include "graphics/shading/tone_curve.h"
 #include "places/paper_city/mirror_bodies.h"
-#include "reflections/reflection_search/ellipsoid.h"
-#include "reflections/reflection_search/exact_reflection.h"
 #include "reflections/reflection_search/reflection_search.h"
+#include "reflections/reflection_search/test_ellipsoid.h"
+#include "reflections/reflection_search/test_exact_reflection.h"
 #include "reflections/virtual_objects/virtual_grid.h"
 #include "scene/data/test_scene.h"
 

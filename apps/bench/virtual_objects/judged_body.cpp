@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "base/test_directions.h"
 #include "bench/report.h"
-#include "reflections/reflection_search/exact_reflection.h"
+#include "reflections/reflection_search/test_exact_reflection.h"
 
 namespace parvis::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "graphics/reference/camera_ray.h"
-#include "reflections/reflection_search/exact_reflection.h"
+#include "reflections/reflection_search/test_exact_reflection.h"
 #include "reflections/reflector_maps/reflector_cache.h"
 
 namespace parvis::bench {

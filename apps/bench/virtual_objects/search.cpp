@@ -10,8 +10,8 @@
 #include "bench/virtual_objects/compared_searches.h"
 #include "bench/virtual_objects/judged_body.h"
 #include "formats/meshes/assimp_reader.h"
-#include "reflections/reflection_search/ellipsoid.h"
-#include "reflections/reflection_search/exact_reflection.h"
+#include "reflections/reflection_search/test_ellipsoid.h"
+#include "reflections/reflection_search/test_exact_reflection.h"
 #include "scene/data/test_scene.h"
 
 namespace parvis::bench {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capture/facades/measure_place.h"
+#include "capture/facades/test_measure_place.h"
 #include "capture/facades/test_street.h"
 
 namespace parvis::facades {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "graphics/light/shadow_check.h"
 #include "graphics/light/test_box.h"
+#include "graphics/light/test_shadow_check.h"
 
 namespace parvis::light {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "graphics/gl/test_context.h"
-#include "graphics/light/drawn_sky_check.h"
-#include "graphics/light/sky_gpu_check.h"
+#include "graphics/light/test_drawn_sky_check.h"
+#include "graphics/light/test_sky_gpu_check.h"
 
 namespace parvis::light {
 namespace {

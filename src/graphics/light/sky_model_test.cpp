@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "graphics/light/atmosphere.h"
-#include "graphics/light/brute_force_sky.h"
 #include "graphics/light/preetham.h"
 #include "graphics/light/sky_view.h"
+#include "graphics/light/test_brute_force_sky.h"
 #include "graphics/reference/sun_disc.h"
 
 namespace parvis::light {

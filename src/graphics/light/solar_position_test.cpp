@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/test_data.h"
-#include "graphics/light/sun_tables.h"
+#include "graphics/light/test_sun_tables.h"
 
 namespace parvis::light {
 namespace {

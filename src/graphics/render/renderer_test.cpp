@@ -9,10 +9,10 @@
 #include "base/test_data.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
-#include "graphics/render/culling_check.h"
-#include "graphics/render/golden.h"
 #include "graphics/render/occlusion.h"
 #include "graphics/render/picture_reader.h"
+#include "graphics/render/test_culling_check.h"
+#include "graphics/render/test_golden.h"
 #include "scene/data/test_crown.h"
 #include "scene/data/test_scene.h"
 

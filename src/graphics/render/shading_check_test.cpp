@@ -10,7 +10,7 @@
 #include "graphics/shading/tone_curve.h"
 
 namespace parvis::shading {
-#include "graphics/render/shading_check.glsl"
+#include "graphics/render/test_shading_check.glsl"
 }  // namespace parvis::shading
 
 namespace parvis::render {
@@ -21,7 +21,7 @@ class ShadingCheck : public gl::ContextTest {};
 TEST_F(ShadingCheck, TheGpuComputesWhatCppDoes) {
   constexpr int size = 64;
   Result<gl::Program> program =
-      gl::Program::create("graphics/render/whole_screen.vert", "graphics/render/shading_check.frag");
+      gl::Program::create("graphics/render/whole_screen.vert", "graphics/render/test_shading_check.frag");
   ASSERT_TRUE(program) << to_string(program.errors());
   const gl::Texture texture = gl::texture_2d(GL_RGBA32F, size, size);
   const gl::Framebuffer framebuffer = gl::Framebuffer::create();

@@ -6,8 +6,8 @@
 
 #include "base/random.h"
 #include "base/test_directions.h"
-#include "reflections/reflection_search/ellipsoid.h"
-#include "reflections/reflection_search/exact_reflection.h"
+#include "reflections/reflection_search/test_ellipsoid.h"
+#include "reflections/reflection_search/test_exact_reflection.h"
 
 namespace parvis::reflection_search {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "base/random.h"
 #include "base/test_directions.h"
-#include "reflections/reflection_search/ellipsoid.h"
 #include "reflections/reflection_search/map_window.h"
+#include "reflections/reflection_search/test_ellipsoid.h"
 
 namespace parvis::reflection_search {
 namespace {

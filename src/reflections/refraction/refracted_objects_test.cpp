@@ -4,7 +4,7 @@
 #include "base/test_data.h"
 #include "base/test_folder.h"
 #include "graphics/gl/test_context.h"
-#include "graphics/render/golden.h"
+#include "graphics/render/test_golden.h"
 #include "reflections/methods/settings.h"
 #include "reflections/reflector_maps/test_boxes.h"
 #include "reflections/virtual_objects/virtual_objects.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "reflections/reflection_search/ellipsoid.h"
+#include "reflections/reflection_search/test_ellipsoid.h"
 #include "reflections/reflector_maps/reflector_map.h"
 #include "scene/data/test_scene.h"
 

@@ -1,4 +1,4 @@
-#include "graphics/light/shadow_check.h"
+#include "graphics/light/test_shadow_check.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "graphics/render/golden.h"
+#include "graphics/render/test_golden.h"
 
 #include <algorithm>
 #include <cstdlib>

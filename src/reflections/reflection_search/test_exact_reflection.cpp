@@ -1,4 +1,4 @@
-#include "reflections/reflection_search/exact_reflection.h"
+#include "reflections/reflection_search/test_exact_reflection.h"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include "graphics/shading/lighting.glsl"
 #include "graphics/shading/sky_visibility.glsl"
 #include "graphics/shading/tone_curve.glsl"
-#include "graphics/render/shading_check.glsl"
+#include "graphics/render/test_shading_check.glsl"
 
 out vec4 result;
 

@@ -10,7 +10,7 @@
 
 #include "base/test_data.h"
 #include "graphics/light/solar_position.h"
-#include "graphics/light/worse.h"
+#include "graphics/light/test_worse.h"
 
 namespace parvis::light {
 

@@ -1,4 +1,4 @@
-#include "capture/facades/measure_place.h"
+#include "capture/facades/test_measure_place.h"
 
 #include <algorithm>
 #include <chrono>
@@ -7,11 +7,11 @@
 
 #include "base/colour.h"
 #include "base/image_io.h"
-#include "capture/facades/baselines.h"
 #include "capture/facades/packed_facade.h"
-#include "capture/facades/rephotography.h"
 #include "capture/facades/scan_trim.h"
-#include "capture/facades/shown_colours.h"
+#include "capture/facades/test_baselines.h"
+#include "capture/facades/test_rephotography.h"
+#include "capture/facades/test_shown_colours.h"
 
 namespace parvis::facades {
 namespace {

@@ -1,4 +1,4 @@
-#include "graphics/light/drawn_sky_check.h"
+#include "graphics/light/test_drawn_sky_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "graphics/light/day_light.h"
 #include "graphics/light/spectrum.h"
 #include "graphics/light/sun_and_sky.h"
-#include "graphics/light/worse.h"
+#include "graphics/light/test_worse.h"
 #include "graphics/reference/camera_ray.h"
 #include "graphics/render/renderer.h"
 

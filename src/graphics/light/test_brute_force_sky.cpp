@@ -1,4 +1,4 @@
-#include "graphics/light/brute_force_sky.h"
+#include "graphics/light/test_brute_force_sky.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "graphics/light/sky_gpu_check.h"
+#include "graphics/light/test_sky_gpu_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "graphics/gl/program.h"
 #include "graphics/light/preetham.h"
 #include "graphics/light/sky_view.h"
-#include "graphics/light/worse.h"
+#include "graphics/light/test_worse.h"
 
 namespace parvis::light {
 namespace {
@@ -72,7 +72,7 @@ void compare(const std::vector<glm::vec4>& gpu, const std::vector<glm::vec3>& cp
 
 Result<SkyGpuCheck> check_sky_on_gpu(const Air& air, double sun_elevation_deg, float table_error) {
   Result<gl::Program> program =
-      gl::Program::create("graphics/render/whole_screen.vert", "graphics/light/sky_check.frag");
+      gl::Program::create("graphics/render/whole_screen.vert", "graphics/light/test_sky_check.frag");
   if (!program) return program.errors();
   const double elevation = sun_elevation_deg * 3.14159265358979 / 180.0;
   const glm::vec3 to_sun(-0.6 * std::cos(elevation), 0.8 * std::cos(elevation), std::sin(elevation));

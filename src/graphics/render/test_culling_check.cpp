@@ -1,4 +1,4 @@
-#include "graphics/render/culling_check.h"
+#include "graphics/render/test_culling_check.h"
 
 #include <algorithm>
 
