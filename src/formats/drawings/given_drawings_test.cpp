@@ -70,7 +70,7 @@ class GivenDrawings : public testing::Test {
  protected:
   template <class Check>
   void each(const Check& check) const {
-    const auto folder = shared_data("plan", PARVIS_SOURCE_DIR);
+    const auto folder = shared_data("plan");
     if (!folder) GTEST_SKIP() << "the shared drawings are not here";
     const json cases = json::parse(std::ifstream(*folder / "expected.json"));
     ASSERT_EQ(cases["files"].size(), 3u);
@@ -224,7 +224,7 @@ TEST_F(GivenDrawings, UnitsLayersAndCounts) {
 }
 
 TEST_F(GivenDrawings, OneWithoutAUnitIsRefusedWithItsExtent) {
-  const auto folder = shared_data("plan", PARVIS_SOURCE_DIR);
+  const auto folder = shared_data("plan");
   if (!folder) GTEST_SKIP() << "the shared drawings are not here";
   Errors warnings;
   const Result<Drawing> drawing = read_drawing(*folder / "square_no_unit_cm.dxf", std::nullopt, warnings);
