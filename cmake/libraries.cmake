@@ -27,6 +27,7 @@ pkg_check_modules(tiff REQUIRED IMPORTED_TARGET libtiff-4)
 pkg_check_modules(proj REQUIRED IMPORTED_TARGET proj)
 pkg_check_modules(mpi REQUIRED IMPORTED_TARGET ompi-c)
 pkg_check_modules(sqlite3 REQUIRED IMPORTED_TARGET sqlite3)
+pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
 find_library(citygml_library citygml REQUIRED)  # its .pc asks for packages that Debian's does not bring
 
 # libosmium is headers alone; what it reads OpenStreetMap's two formats with is linked by those who include it.

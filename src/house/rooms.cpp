@@ -18,6 +18,7 @@
 #include "life/vegetation/room.h"
 #include "places/dressing/room.h"
 #include "places/kerbside/room.h"
+#include "planning/plan_drawing/room.h"
 #include "reflections/environment_rays/room.h"
 #include "reflections/local_maps/room.h"
 #include "reflections/methods/registry.h"
@@ -55,6 +56,7 @@ constexpr Furnish rooms[]{
     lit_objects::furnish,  // after all processes that move things
     facades::furnish,         trees::furnish,
     vegetation::furnish,      view_dependent_objects::furnish,
+    plan_drawing::furnish,
 };
 
 }  // namespace

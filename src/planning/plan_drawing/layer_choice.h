@@ -1,0 +1,17 @@
+// Which layers of a drawing are shown.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "formats/drawings/drawing.h"
+
+namespace parvis::plan_drawing {
+
+/// Whether each layer is shown: as the drawing has it, changed by `choice`, names or patterns separated by
+/// commas, each hidden with a - before it ("-*, BATI, ARBRES": those two alone). Errors: a name that no layer
+/// has, with those that there are.
+Result<std::vector<bool>> shown_layers(const formats::Drawing& drawing, const std::string& choice);
+
+}  // namespace parvis::plan_drawing

@@ -1,0 +1,36 @@
+// Plans as files: PDF at a true scale, DXF, CSV.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "base/result.h"
+#include "planning/plan_drawing/scene_plan.h"
+
+namespace parvis::plan_drawing {
+
+/// A sheet of paper, landscape, north up.
+struct Sheet {
+  std::string paper = "A3";          ///< A4 to A0
+  double scale = 200.0;              ///< 1 : scale
+  std::optional<glm::dvec2> centre;  ///< of what is shown, in the scene's frame; nothing: ScenePlan::middle
+  std::string title, subtitle;       ///< of the title block; UTF-8
+};
+
+/// Width and height of a paper in landscape, millimetres; nothing for a name that is none of A0 to A4.
+std::optional<glm::dvec2> paper_size_mm(const std::string& paper);
+
+/// Draws what lies on the sheet, with frame, grid, title block, legend, scale bar and north. Errors: an
+/// unknown paper, a scale beyond 1:5 to 1:50,000, a sheet on which nothing lies.
+Status write_plan_pdf(const std::filesystem::path& file, const ScenePlan& plan, const Sheet& sheet);
+
+/// Layers WALLS, ROADS, THINGS, PLANTS, TREES, and DESIGN_ with the name of each design. Trees and placed
+/// objects are blocks; coordinates are those of the map where the scene is on one.
+Status write_plan_dxf(const std::filesystem::path& file, const ScenePlan& plan);
+
+/// One line for each placed object and each tree: kind, name, x, y, z, heading_deg, width_m, depth_m,
+/// height_m, design; coordinates as in the DXF.
+Status write_plan_csv(const std::filesystem::path& file, const ScenePlan& plan);
+
+}  // namespace parvis::plan_drawing

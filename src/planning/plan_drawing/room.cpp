@@ -1,0 +1,14 @@
+#include "planning/plan_drawing/room.h"
+
+#include "planning/plan_drawing/plan_nodes.h"
+#include "scene/script/node_registry.h"
+
+namespace parvis::plan_drawing {
+
+void furnish(House& house) {
+  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
+  add_drawing_node(registry);
+  add_picture_node(registry);
+}
+
+}  // namespace parvis::plan_drawing

@@ -1,0 +1,54 @@
+// The plan of a scene: what is cut 1 m above the ground, edges of roads, low things, trees, and the objects
+// of its designs.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "planning/design/placed_object.h"
+#include "scene/data/scene.h"
+
+namespace parvis::plan_drawing {
+
+/// What a line of a plan shows; each is a layer of the DXF.
+enum class PlanLayer : unsigned char { wall, road, thing, plant, drawing };
+
+/// A polyline in the scene's frame; a closed one has its first point again at the end.
+struct PlanLine {
+  PlanLayer layer = PlanLayer::wall;
+  std::vector<glm::dvec3> points;
+  glm::vec3 colour{0.0f};  ///< of a drawing's line, linear
+  double width_m = 0.0;    ///< of a drawing's line; 0: as thin as others
+
+  /// Whether it returns to its first point.
+  bool is_closed() const { return points.size() > 3 && points.front() == points.back(); }
+};
+
+/// A tree at its foot.
+struct PlanTree {
+  std::string name;
+  glm::dvec3 position{0.0};
+  double crown_radius_m = 1.0, height_m = 1.0;
+};
+
+/// All that a plan shows, in the scene's frame.
+struct ScenePlan {
+  glm::dvec3 origin{0.0};  ///< map coordinates of the frame's origin; zero: the scene is not on a map
+  std::vector<PlanLine> lines;
+  std::vector<PlanTree> trees;
+  std::vector<design::PlacedObject> placed;  ///< of designs
+  std::vector<std::string> left_out;         ///< what a plan cannot hold, for its reader
+
+  /// The middle of what is placed, or of everything.
+  glm::dvec2 middle() const;
+};
+
+/// How high above the ground walls are cut, metres: below sills, above seats.
+inline constexpr float section_height_m = 1.0f;
+
+/// The plan of all static, visible things. `placed`: the objects of designs, which are left out of the rest
+/// where they are the scene's objects of the same name.
+ScenePlan plan_of(const scene::Scene& scene, std::vector<design::PlacedObject> placed);
+
+}  // namespace parvis::plan_drawing
