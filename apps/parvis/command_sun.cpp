@@ -21,9 +21,9 @@
 namespace parvis {
 namespace {
 
-struct Arguments {
+struct SunArguments {
   SceneArguments scene;
-  std::string from, to;
+  std::string from, to, date;
   std::vector<double> place, area;
   std::vector<std::string> ground;
   std::optional<std::string> outline;
@@ -51,8 +51,9 @@ Result<std::pair<int, int>> read_date(const std::string& text) {
 }
 
 /// The place of the scene's dayLight, or --place with its clock: by default that of the sun in whole hours.
-light::PlaceAndTime read_place(const Arguments& arguments, const light::DayLight& day) {
-  light::PlaceAndTime place = day.when;
+light::PlaceAndTime read_place(const SunArguments& arguments, const scene::Scene& scene) {
+  light::PlaceAndTime place = scene.data<light::DayLight>().when;
+  place.true_north_deg = scene.true_north_deg;
   if (arguments.place.empty()) return place;
   place.latitude_deg = arguments.place[0], place.longitude_deg = arguments.place[1];
   place.time_zone_h = arguments.clock_h.value_or(std::round(place.longitude_deg / 15.0));
@@ -60,9 +61,9 @@ light::PlaceAndTime read_place(const Arguments& arguments, const light::DayLight
 }
 
 /// From --from to --to.
-Result<light::SunPeriod> read_period(const Arguments& arguments, const scene::Scene& scene) {
+Result<light::SunPeriod> read_period(const SunArguments& arguments, const scene::Scene& scene) {
   const light::DayLight& day = scene.data<light::DayLight>();
-  light::SunPeriod period{.place = read_place(arguments, day), .day_step = arguments.every};
+  light::SunPeriod period{.place = read_place(arguments, scene), .day_step = arguments.every};
   if (arguments.place.empty() && !day.is_given)
     return error(
         "the scene has no place on the earth: add dayLight(latitude=, longitude=) to it or give --place "
@@ -83,7 +84,7 @@ Result<light::SunPeriod> read_period(const Arguments& arguments, const scene::Sc
 }
 
 /// Corners out of "x y, x y, ...", which lie in the area of the study.
-Result<std::vector<glm::dvec2>> read_outline(const Arguments& arguments) {
+Result<std::vector<glm::dvec2>> read_outline(const SunArguments& arguments) {
   std::vector<glm::dvec2> corners;
   if (!arguments.outline) return corners;
   const Result<scene::AttributeValue> points =
@@ -118,13 +119,13 @@ scene::Scene as_it_stands(const house::Play& play) {
 }
 
 /// What is judged, as the command line says it.
-std::string judged_ground(const Arguments& arguments) {
+std::string judged_ground(const SunArguments& arguments) {
   if (arguments.ground.empty()) return arguments.outline ? "open ground in the outline" : "open ground";
   return fmt::format("ground \"{}\"{}", fmt::join(arguments.ground, "\", \""),
                      arguments.outline ? " in the outline" : "");
 }
 
-void print_rule(const Arguments& arguments, const light::SunStudy& study, const light::SunPeriod& period) {
+void print_rule(const SunArguments& arguments, const light::SunStudy& study, const light::SunPeriod& period) {
   const light::OpenSpaceRule rule = light::open_space_rule(study);
   if (rule.area_m2 == 0.0) {
     fmt::print("no open ground: the rule of BRE 209 does not apply\n");
@@ -144,16 +145,41 @@ std::string clock_time(double hours) {
   return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);
 }
 
-void print_daylight(const light::SunPeriod& period, const std::string& date) {
-  const light::DaylightHours hours = light::daylight_hours(period.place);
-  if (hours.rise_h && hours.set_h)
-    fmt::print("{}: sunrise {}, sunset {}, at UTC{:+g}\n", date, clock_time(*hours.rise_h),
-               clock_time(*hours.set_h), period.place.time_zone_h);
-  else
+void print_daylight(const light::PlaceAndTime& day, const std::string& date) {
+  const light::DaylightHours hours = light::daylight_hours(day);
+  const std::string rise = hours.rise_h ? "sunrise " + clock_time(*hours.rise_h) : "no sunrise",
+                    set = hours.set_h ? "sunset " + clock_time(*hours.set_h) : "no sunset";
+  if (!hours.rise_h && !hours.set_h)
     fmt::print("{}: the sun does not {}\n", date, hours.is_polar_night() ? "rise" : "set");
+  else
+    fmt::print("{}: {}, {}, at UTC{:+g}\n", date, hours.sets_first() ? set : rise,
+               hours.sets_first() ? rise : set, day.time_zone_h);
 }
 
-Status study(const Arguments& arguments) {
+/// Where the sun stands on a day, without a scene: rise and set, its highest position, and each hour.
+Status print_positions(const SunArguments& arguments) {
+  if (arguments.place.empty())
+    return error("--date asks where the sun stands: give --place LATITUDE,LONGITUDE");
+  const Result<std::pair<int, int>> date = read_date(arguments.date);
+  if (!date) return date.errors();
+  light::PlaceAndTime day = read_place(arguments, {});
+  day.year = date->first, day.day_of_year = date->second;
+  if (Status status = check(day); !status) return status;
+  print_daylight(day, arguments.date);
+  const auto print = [&](double hour, const std::string& name) {
+    const light::SolarPosition sun = light::sun_of(light::at_hour(day, hour));
+    fmt::print("{} {:>8.3f} {:>9.3f}{}\n", clock_time(hour), sun.azimuth_deg, sun.elevation_deg(), name);
+  };
+  fmt::print("clock  azimuth elevation (degrees, from north clockwise; with refraction)\n");
+  const double highest_h = light::daylight_hours(day).noon_h;
+  for (int hour = 0; hour < 24; ++hour) {
+    print(hour, "");
+    if (highest_h >= hour && highest_h < hour + 1) print(highest_h, "  highest");
+  }
+  return Done{};
+}
+
+Status study(const SunArguments& arguments) {
   Result<std::vector<glm::dvec2>> outline = read_outline(arguments);
   if (!outline) return outline.errors();
   const Result<machines::Processes> processes = machines::Processes::join();
@@ -182,7 +208,7 @@ Status study(const Arguments& arguments) {
         "warning: {:.0f} m2 of ground lie under surfaces that face down alone; is a building inside out? "
         "They count as built\n",
         result->covered_m2);
-  print_daylight(*period, arguments.from);
+  print_daylight(period->place, arguments.from);
   fmt::print(
       "hours of sun per day, of {:.1f} on an open plain: {}.png, .csv{}\n", result->max_hours,
       arguments.output.string(),
@@ -192,7 +218,7 @@ Status study(const Arguments& arguments) {
 }
 
 /// The day's shadows as a film: the hours while the sun is up, a frame every few minutes.
-Status film_day(const Arguments& arguments) {
+Status film_day(const SunArguments& arguments) {
   int width = 0, height = 0;
   if (Status status = arguments.scene.read_size(width, height); !status) return status;
   const Result<gl::Context> context = gl::Context::create_headless();
@@ -205,12 +231,13 @@ Status film_day(const Arguments& arguments) {
   if (!node) return error("a film of the day's shadows needs a scene with dayLight(...)");
   const Result<std::pair<int, int>> date = read_date(arguments.from);
   if (!date) return date.errors();
-  light::PlaceAndTime day = read_place(arguments, play.scene.data<light::DayLight>());
+  light::PlaceAndTime day = read_place(arguments, play.scene);
   day.year = date->first, day.day_of_year = date->second;
   if (Status status = check(day); !status) return status.errors();
   const light::DaylightHours hours = light::daylight_hours(day);
   if (hours.is_polar_night()) return error("the sun does not rise on {}", arguments.from);
-  const double from = hours.rise_h.value_or(0.0), to = hours.set_h.value_or(23.99);
+  const bool is_whole_day = hours.sets_first() || !hours.rise_h || !hours.set_h;
+  const double from = is_whole_day ? 0.0 : *hours.rise_h, to = is_whole_day ? 23.99 : *hours.set_h;
 
   Result<house::Film> film = house::Film::open(arguments.film, width, height, 25);
   if (!film) return film.errors();
@@ -235,7 +262,10 @@ Status film_day(const Arguments& arguments) {
   return film->finish();
 }
 
-Status run(const Arguments& arguments) {
+Status run(const SunArguments& arguments) {
+  if (!arguments.date.empty()) return print_positions(arguments);
+  if (arguments.scene.scene.empty() || arguments.from.empty())
+    return error("give a scene and --from DATE for hours of sun, or --place and --date for the sun alone");
   if (arguments.film.empty() == arguments.output.empty())
     return error("give either -o PREFIX for hours of sun, or --film FILE for the shadows of the day");
   if (arguments.film.empty()) return study(arguments);
@@ -252,18 +282,26 @@ Status run(const Arguments& arguments) {
 void add_sun(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand(
       "sun", "Hours of direct sun over ground and facades, as a plan, a table and a model");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SunArguments>();
   arguments->scene.add_scene(*command);
   arguments->scene.add_state(*command);
-  command->add_option("--from", arguments->from, "First day, as 2026-03-21")->required();
+  command->get_option("scene")->required(false);
+  command->add_option("--from", arguments->from, "First day, as 2026-03-21");
   command->add_option("--to", arguments->to, "Last day (default: the first)");
   command->add_option("--every", arguments->every, "One day stands for so many")
       ->check(CLI::Range(1, 366))
       ->capture_default_str();
   command
       ->add_option("--place", arguments->place,
-                   "Latitude and longitude (east positive) in place of the scene's")
+                   "Latitude and longitude (east positive) in place of the scene's: 43.7,7.26")
+      ->delimiter(',')
       ->expected(2);
+  command
+      ->add_option(
+          "--date", arguments->date,
+          "Without a scene: print where the sun stands at --place on this day, when it rises and sets")
+      ->excludes("--from")
+      ->needs("--place");
   command
       ->add_option("--clock", arguments->clock_h,
                    "Hours by which the clock of --place is ahead of universal time (default: longitude / 15, "
@@ -300,6 +338,7 @@ void add_sun(CLI::App& app, Chosen& chosen) {
       "Example: parvis sun out/paper/paper_day.xp --from 2026-03-21 --area -120 -120 120 120 -o out/sun\n"
       "Example: parvis sun place.xp --from 2026-03-21 --outline \"-40 -40, 40 -40, 0 40\" -o out/square\n"
       "Example: parvis sun place.xp --from 2026-03-21 --ground \"square*\" -o out/square\n"
+      "Example: parvis sun --place 43.7,7.26 --clock 2 --date 2026-06-21\n"
       "Example: parvis sun out/paper/paper_day.xp --from 2026-06-21 --camera plan --film out/shadows.mp4\n"
       "Started by mpirun, several processes or machines divide the hours of sun: the same files, sooner.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

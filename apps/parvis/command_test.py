@@ -418,6 +418,14 @@ class HoursOfSun(BeforeAMirror):
         self.assertIn("sunrise 06:3", said)
         self.assertIn("UTC+1", said)
 
+    def test_the_sun_of_a_place_and_day_without_a_scene(self):
+        done = run("sun", "--place", "43.7,7.26", "--clock", "2", "--date", "2026-06-21")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("2026-06-21: sunrise 05:48, sunset 21:15, at UTC+2", done.stdout)
+        self.assertRegex(done.stdout, r"13:3\d +180\.\d+ +69\.\d+  highest")
+        self.assertEqual(run("sun", "--date", "2026-06-21").returncode, 2)
+        self.assertEqual(run("sun", "--place", "43.7,7.26").returncode, 1)
+
     def test_a_polar_night_has_no_hours(self):
         scene = self.write("scene.xp", 'model(file="ground.obj")\n')
         place = ["--place", "78", "15", "--area", "-10", "-10", "10", "10", "--cell", "1"]

@@ -19,8 +19,29 @@ struct Levelness {
   glm::dvec3 columns{0.0};
 };
 
-/// The camera's axes, turned by a quarter where its own right is nearer to `up` than its up is.
+/// The axes of a picture whose EXIF says how it was held; nothing where it says nothing, or that its top was
+/// up.
+std::optional<LevelAxes> held_by_exif(const Photograph& photograph) {
+  const glm::dvec3 right = glm::dvec3(photograph.world_from_camera[0]), top = photograph.up_in_world();
+  switch (photograph.orientation) {
+    case 3:
+    case 4:
+      return LevelAxes{-right, -top};
+    case 5:
+    case 6:
+      return LevelAxes{top, -right};
+    case 7:
+    case 8:
+      return LevelAxes{-top, right};
+    default:
+      return std::nullopt;
+  }
+}
+
+/// The camera's axes as EXIF has them, else turned by a quarter where its own right is nearer to `up` than
+/// its up is.
 LevelAxes held(const Photograph& photograph, glm::dvec3 up) {
+  if (const std::optional<LevelAxes> axes = held_by_exif(photograph)) return *axes;
   const glm::dvec3 right = glm::dvec3(photograph.world_from_camera[0]), top = photograph.up_in_world();
   if (std::abs(glm::dot(right, up)) <= std::abs(glm::dot(top, up))) return {right, top};
   return {top, glm::dot(right, up) > 0.0 ? right : -right};
@@ -50,9 +71,13 @@ glm::dvec3 up_of(const glm::dmat3& spread, glm::dvec3 columns) {
 
 std::optional<glm::dvec3> up_of_cameras(const PhotographSet& set) {
   if (set.photographs.empty()) return std::nullopt;
+  const auto top_of = [](const Photograph& photograph) {
+    const std::optional<LevelAxes> axes = held_by_exif(photograph);
+    return axes ? axes->column : photograph.up_in_world();
+  };
   glm::dvec3 up(0.0);
-  for (const Photograph& photograph : set.photographs) up += photograph.up_in_world();
-  if (glm::length(up) < 1e-6) up = set.photographs.front().up_in_world();
+  for (const Photograph& photograph : set.photographs) up += top_of(photograph);
+  if (glm::length(up) < 1e-6) up = top_of(set.photographs.front());
   up = glm::normalize(up);
   for (int round = 0; round < 3; ++round) {  // which pictures were held upright becomes clear with `up`
     const Levelness sum = levelness(set, up);

@@ -13,8 +13,9 @@ namespace parvis::photographs {
 
 /// The direction against gravity in the world of a set, from its cameras alone: photographs are taken level,
 /// so that the pictures' rows lie flat whatever the pitch. Least squares over the rows' directions (after
-/// Szeliski 2006, section 2.3), with the columns' directions where all photographs look the same way; cameras
-/// turned by a quarter (upright format) are recognised. Nothing without photographs.
+/// Szeliski 2006, section 2.3), with the columns' directions where all photographs look the same way; how a
+/// picture was held is what EXIF says, and without it cameras turned by a quarter are recognised among
+/// others. Nothing without photographs.
 std::optional<glm::dvec3> up_of_cameras(const PhotographSet& set);
 
 /// The same, corrected by the walls: their normals lie level, too, and say what pictures that all look the

@@ -50,6 +50,22 @@ TEST(Alignment, PicturesHeldUprightCountAsLevel) {
   EXPECT_GT(up_of_cameras(set)->z, std::cos(glm::radians(0.5)));
 }
 
+TEST(Alignment, PicturesAllHeldUprightAreLevelAsExifSays) {
+  for (const auto& [orientation, quarters] : {std::pair(6, 1), std::pair(3, 2), std::pair(8, 3)}) {
+    PhotographSet set = with_points(6);
+    for (Photograph& photograph : set.photographs) {
+      photograph.orientation = orientation;
+      for (int i = 0; i < quarters; ++i) {  // the camera turned with its right side down
+        const glm::dmat4 pose = photograph.world_from_camera;
+        photograph.world_from_camera[0] = -pose[1], photograph.world_from_camera[1] = pose[0];
+      }
+    }
+    const auto up = up_of_cameras(set);
+    ASSERT_TRUE(up);
+    EXPECT_GT(up->z, std::cos(glm::radians(0.5))) << orientation;
+  }
+}
+
 TEST(Alignment, AMeasuredFrameIsTurnedByWholeQuarters) {
   PhotographSet set = with_points(6);
   const glm::dvec3 before = set.points[7].position_in_world;

@@ -33,8 +33,9 @@ constexpr const char* max_trials = "3000";  ///< to find a pair's geometry: enou
 /// The pictures that a job works on.
 struct Pictures {
   std::vector<std::string> names;
-  bool are_alike = true;  ///< one size and focal length
-  std::string hash;       ///< of names, sizes, times
+  std::map<std::string, PictureHeader> headers;  ///< by name
+  bool are_alike = true;                         ///< one size and focal length
+  std::string hash;                              ///< of names, sizes, times
 };
 
 /// Decodes every picture once: COLMAP would take half of a file that is cut short for a whole one.
@@ -60,6 +61,7 @@ Pictures usable_pictures(const fs::path& folder, Errors& problems) {
     pictures.are_alike = pictures.are_alike && info->width == first.width && info->height == first.height &&
                          info->focal_length_mm == first.focal_length_mm;
     pictures.names.push_back(name);
+    pictures.headers.emplace(name, *info);
     std::error_code ignored;
     identity += fmt::format("{} {} {}\n", name, fs::file_size(folder / name, ignored),
                             fs::last_write_time(folder / name, ignored).time_since_epoch().count());
@@ -191,8 +193,9 @@ Status find_cameras(const CalibrationJob& job, const Pictures& pictures, const W
 Status triangulate(const CalibrationJob& job, const PhotographSet& given, const WorkFolder& work) {
   PhotographSet cameras = given;
   cameras.points.clear();
-  if (Status status = write_colmap_model(work.given(), colmap_model_of(cameras), ColmapFormat::text); !status)
-    return status;
+  if (Status status = write_colmap_model(work.given(), colmap_model_of(cameras), ColmapFormat::binary);
+      !status)
+    return status;  // in its text names end at their first space
   std::error_code code;
   fs::create_directories(work.sparse() / "0", code);
   const fs::path log = work.log("points");
@@ -242,6 +245,17 @@ void name_missing(const Pictures& pictures, const WorkFolder& work, LoadedSet& l
     if (find(loaded.set, name) || named.contains(name)) continue;
     const auto found = agreement.find(name);
     loaded.problems.push_back(no_common_place(name, found == agreement.end() ? 0 : found->second));
+  }
+}
+
+/// Cameras are those of the pictures as they are stored, whatever side was up.
+void tell_orientations(const Pictures& pictures, PhotographSet& set) {
+  for (Photograph& photograph : set.photographs) {
+    const auto header = pictures.headers.find(photograph.name);
+    const bool is_as_stored = header != pictures.headers.end() &&
+                              header->second.width == photograph.lens.width &&
+                              header->second.height == photograph.lens.height;
+    photograph.orientation = is_as_stored ? header->second.orientation : 1;
   }
 }
 
@@ -320,6 +334,7 @@ Result<LoadedSet> calibrate(const CalibrationJob& job) {
   if (!loaded) return loaded;
   loaded->problems.insert(loaded->problems.begin(), problems.begin(), problems.end());
   name_missing(pictures, work, *loaded);
+  tell_orientations(pictures, loaded->set);
   if (Status status = turn_and_scale(job, loaded->set); !status) return status.errors();
   const Errors misfits = cameras_that_do_not_fit(loaded->set);
   loaded->problems.insert(loaded->problems.end(), misfits.begin(), misfits.end());

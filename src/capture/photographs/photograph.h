@@ -21,6 +21,8 @@ struct Photograph {
   std::filesystem::path file;  ///< where the pixels are; empty where only the camera is known
   std::filesystem::path mask;  ///< grey picture of the same size, 0 = do not use; empty: every pixel is used
   Lens lens;                   ///< with the picture's size
+  int orientation =
+      1;  ///< EXIF's, of pixels as stored (CIPA DC-008): which side was up; 1: the top, or unknown
   glm::dmat4 world_from_camera{1.0};  ///< rigid
   glm::dvec3 gain{1.0, 1.0,
                   1.0};  ///< linear Rec. 709 times this is comparable between the photographs of a set

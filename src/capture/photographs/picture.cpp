@@ -165,6 +165,7 @@ void fit_to_files(LoadedSet& loaded, const fs::path& picture_folder) {
       continue;
     }
     std::optional<Lens> lens = lens_for(photograph.lens, info->width, info->height);
+    photograph.orientation = lens ? info->orientation : 1;
     if (!lens && is_turned_by_a_quarter(info->orientation))
       lens = lens_for(photograph.lens, info->height, info->width);
     if (!lens) {

@@ -8,7 +8,7 @@
 namespace parvis::scene {
 namespace {
 
-constexpr double max_latitude_deg = 84.0, max_longitude_deg = 180.0;  // as far as UTM goes
+constexpr double max_longitude_deg = 180.0;
 constexpr double max_region_m = 100'000.0;  // no city is so wide, and floats end at centimetres there
 /// Without a name, degrees are what spans less than a town does and is higher than it is wide.
 constexpr double narrow_deg = 0.2, high_m = 2.0;
@@ -23,10 +23,12 @@ bool can_be_degrees(const CoordinateClues& clues, bool is_north_first) {
   return east_first.x <= max_longitude_deg && east_first.y <= max_latitude_deg;
 }
 
-/// Whether roofs say that the axes are in the other order than `is_north_first`.
+/// Whether roofs, or bodies where there are none, say that the axes are in the other order than
+/// `is_north_first`.
 bool roofs_contradict(const CoordinateClues& clues, bool is_north_first) {
-  const double up = is_north_first ? -clues.roofs_up : clues.roofs_up;
-  return up < -majority * clues.roofs;
+  const bool has_roofs = clues.roofs > 0.0;
+  const double right = has_roofs ? clues.roofs_up : clues.bodies_right;
+  return (is_north_first ? -right : right) < -majority * (has_roofs ? clues.roofs : clues.bodies);
 }
 
 const char* order_name(bool is_north_first) { return is_north_first ? "latitude first" : "longitude first"; }
@@ -42,6 +44,22 @@ glm::dvec2 east_first(glm::dvec2 in_file, bool is_north_first) {
 
 bool names_longitude_first(const std::string& system) {
   return system.find("CRS84") != std::string::npos;  // OGC's own, which EPSG has no number for
+}
+
+/// Whether names of this form mean the order of axes of the system's definition (OGC 07-092r1, 09-048r3).
+/// Older ones, "EPSG:2180", have the easting first.
+bool means_defined_order(const std::string& system) {
+  return system.find("urn:") != std::string::npos || system.find("/def/crs/") != std::string::npos;
+}
+
+/// Of a projected system whose northing stands first by definition.
+bool has_northing_first(const CoordinateClues& clues, int epsg) {
+  if (roofs_contradict(clues, false)) return true;
+  if (roofs_contradict(clues, true)) return false;
+  const glm::dvec2 middle = 0.5 * glm::dvec2(clues.low + clues.high);
+  const bool fits_east_first = lies_in_area(epsg, middle),
+             fits_north_first = lies_in_area(epsg, {middle.y, middle.x});
+  return fits_east_first == fits_north_first ? means_defined_order(clues.system) : fits_north_first;
 }
 
 /// Area in plan, in the file's own units; negative where the ring runs clockwise about its first two axes.
@@ -65,8 +83,26 @@ void CoordinateClues::add_roof(std::span<const glm::dvec3> ring) {
   if (std::isfinite(area)) roofs_up += area, roofs += std::abs(area);
 }
 
+void CoordinateClues::add_body(std::span<const std::vector<glm::dvec3>> rings) {
+  double lowest = std::numeric_limits<double>::max(), volume = 0.0;
+  for (const std::vector<glm::dvec3>& ring : rings)
+    for (const glm::dvec3& point : ring) lowest = std::min(lowest, point.z);
+  for (const std::vector<glm::dvec3>& ring : rings) {
+    double sum = 0.0;
+    for (const glm::dvec3& point : ring) sum += point.z - lowest;
+    if (!ring.empty()) volume += signed_area(ring) * sum / double(ring.size());
+  }
+  if (std::isfinite(volume)) bodies_right += volume, bodies += std::abs(volume);
+}
+
+void CityCoordinates::lay_on(const MapProjection& target) {
+  target_ = target;
+  map_ = target.system();
+  if (place_deg_) true_north_deg_ = target.true_north_deg(*place_deg_);
+}
+
 Result<CityCoordinates> CityCoordinates::find(const CoordinateClues& clues, const std::filesystem::path& file,
-                                              Errors& warnings) {
+                                              Errors& warnings, const std::string& map) {
   CityCoordinates found;
   if (!(clues.low.x <= clues.high.x)) return found;
   const FileLocation where{file.string(), 0, 0};
@@ -81,7 +117,7 @@ Result<CityCoordinates> CityCoordinates::find(const CoordinateClues& clues, cons
                  "read as metres, east first. Name the system that they are of",
                  name, *epsg));
   if (system && !system->is_geographic) {
-    found.is_north_first_ = system->is_north_first && roofs_contradict(clues, false);
+    found.is_north_first_ = system->is_north_first && has_northing_first(clues, *epsg);
     found.plan_unit_m_ = system->plan_unit_m;
     found.height_unit_m_ = system->height_unit_m.value_or(system->plan_unit_m);
     if (found.height_unit_m_ != 1.0 && !system->height_unit_m)
@@ -92,6 +128,18 @@ Result<CityCoordinates> CityCoordinates::find(const CoordinateClues& clues, cons
                    name, system->name, system->plan_unit_m));
     if (std::max(std::abs(middle.x), std::abs(middle.y)) * system->plan_unit_m > off_origin_m)
       found.place_deg_ = place_on_earth(*epsg, east_first(middle, found.is_north_first_));
+    const std::string own = fmt::format("EPSG:{}", *epsg);
+    const std::optional<MapProjection> projection = found.place_deg_ ? MapProjection::of(own) : std::nullopt;
+    if (!projection) return found;
+    const std::optional<MapProjection> other =
+        map.empty() || map == own ? std::nullopt : MapProjection::of(map);
+    if (other && std::isfinite((*other)(*found.place_deg_).x)) {
+      found.own_ = projection;
+      found.lay_on(*other);
+    } else {
+      found.map_ = own;
+      found.true_north_deg_ = projection->true_north_deg(*found.place_deg_);
+    }
     return found;
   }
   const bool is_named = system || names_longitude_first(clues.system);
@@ -131,8 +179,10 @@ Result<CityCoordinates> CityCoordinates::find(const CoordinateClues& clues, cons
                  can_be_north_first == can_be_east_first ? "roofs" : "coordinates",
                  order_name(found.is_north_first_)));
   const glm::dvec2 place_deg = east_first(middle, found.is_north_first_);
-  found.utm_.emplace(place_deg);
   found.place_deg_ = place_deg;
+  const std::optional<MapProjection> other = MapProjection::of(map);
+  const bool is_on_other = other && std::isfinite((*other)(place_deg).x);
+  found.lay_on(is_on_other ? *other : MapProjection::utm(place_deg));
   found.height_unit_m_ = system ? system->height_unit_m.value_or(1.0) : 1.0;
   const glm::dvec3 size_m = found(clues.high) - found(clues.low);
   if (!(glm::length(glm::dvec2(size_m)) < max_region_m))
@@ -147,7 +197,11 @@ Result<CityCoordinates> CityCoordinates::find(const CoordinateClues& clues, cons
 
 glm::dvec3 CityCoordinates::operator()(const glm::dvec3& in_file) const {
   const glm::dvec2 plan = east_first(in_file, is_north_first_);
-  return {utm_ ? (*utm_)(plan) : plan_unit_m_ * plan, height_unit_m_ * in_file.z};
+  const glm::dvec2 metres = plan_unit_m_ * plan;
+  return {own_      ? (*target_)(own_->degrees(metres))
+          : target_ ? (*target_)(plan)
+                    : metres,
+          height_unit_m_ * in_file.z};
 }
 
 }  // namespace parvis::scene

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 namespace parvis::scene {
 namespace {
 
@@ -27,7 +30,7 @@ Found find(const CoordinateClues& clues) {
 
 constexpr glm::dvec2 tokyo_deg{139.77, 35.68}, delft_deg{4.36, 52.01};  // east, north
 
-glm::dvec2 on_map(glm::dvec2 deg) { return Utm(deg)(deg); }
+glm::dvec2 on_map(glm::dvec2 deg) { return MapProjection::utm(deg)(deg); }
 
 TEST(CityCoordinates, DegreesOfJapanStandOnTheMapOfOpenStreetMap) {
   const Found found =
@@ -121,6 +124,53 @@ TEST(CityCoordinates, UnknownSystemsAndExchangedAxesSaySo) {
   const Found mixed = find(exchanged);
   ASSERT_FALSE(mixed.coordinates);
   EXPECT_NE(to_string(mixed.coordinates.errors()).find("axes of some objects exchanged"), std::string::npos);
+}
+
+TEST(CityCoordinates, BodiesSayWhichAxisIsFirstWhereNoRoofDoes) {
+  const std::vector<std::vector<glm::dvec3>> tower{
+      // bottom and top, the right side out if x points east
+      {{637'200, 486'000, 100}, {637'200, 486'010, 100}, {637'210, 486'010, 100}, {637'210, 486'000, 100}},
+      {{637'200, 486'000, 130}, {637'210, 486'000, 130}, {637'210, 486'010, 130}, {637'200, 486'010, 130}}};
+  for (const char* name : {"urn:ogc:def:crs:EPSG::2180", "EPSG:2180"})
+    for (const bool is_north_first : {false, true}) {
+      CoordinateClues clues;
+      clues.system = name;
+      std::vector<std::vector<glm::dvec3>> rings = tower;
+      for (auto& ring : rings)
+        for (glm::dvec3& point : ring) {
+          if (is_north_first) std::swap(point.x, point.y);
+          clues.add(point);
+        }
+      clues.add_body(rings);
+      Errors warnings;
+      const Result<CityCoordinates> found = CityCoordinates::find(clues, "town.gml", warnings);
+      ASSERT_TRUE(found);
+      EXPECT_NEAR((*found)(rings[0][0]).x, 637'200.0, 1e-6) << name << is_north_first;
+      EXPECT_EQ(found->map(), "EPSG:2180");
+    }
+  for (const bool is_urn : {false, true}) {  // nothing but the name says it
+    CoordinateClues clues;
+    clues.system = is_urn ? "urn:ogc:def:crs:EPSG::2180" : "EPSG:2180";
+    clues.add({637'200, 486'000, 0});
+    Errors warnings;
+    const Result<CityCoordinates> found = CityCoordinates::find(clues, "town.gml", warnings);
+    ASSERT_TRUE(found);
+    EXPECT_EQ((*found)({637'200, 486'000, 0}).x, is_urn ? 486'000.0 : 637'200.0);
+  }
+}
+
+TEST(CityCoordinates, AProjectedTownIsLaidOnTheMapOfTheScene) {
+  CoordinateClues clues;
+  clues.system = "EPSG:28992";
+  const glm::dvec3 delft(84'500, 447'500, 1);
+  clues.add(delft);
+  Errors warnings;
+  const Result<CityCoordinates> found = CityCoordinates::find(clues, "town.json", warnings, "EPSG:25831");
+  ASSERT_TRUE(found && found->place_deg());
+  EXPECT_EQ(found->map(), "EPSG:25831");
+  const auto target = MapProjection::of("EPSG:25831");
+  ASSERT_TRUE(target);
+  EXPECT_NEAR(glm::distance(glm::dvec2((*found)(delft)), (*target)(*found->place_deg())), 0.0, 0.5);
 }
 
 }  // namespace

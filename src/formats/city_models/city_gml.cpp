@@ -184,12 +184,20 @@ class Clues {
       if (placement.is_template)
         clues_.add(placement.reference);
       else
-        add(geometry, is_roof);
+        add_whole(geometry, is_roof);
     });
     for (unsigned i = 0; i < object.getChildCityObjectsCount(); ++i) add(object.getChildCityObject(i));
   }
 
+  /// With all its surfaces as one body, where none has a name.
+  void add_whole(const citygml::Geometry& geometry, bool is_roof) {
+    rings_.clear(), has_names_ = is_roof;
+    add(geometry, is_roof);
+    if (!has_names_) clues_.add_body(rings_);
+  }
+
   void add(const citygml::Geometry& geometry, bool is_roof) {
+    has_names_ = has_names_ || geometry.getType() != citygml::Geometry::GeometryType::GT_Unknown;
     is_roof = is_roof || geometry.getType() == citygml::Geometry::GeometryType::GT_Roof;
     for (unsigned i = 0; i < geometry.getPolygonsCount(); ++i) {
       std::vector<glm::dvec3> ring;
@@ -198,11 +206,18 @@ class Clues {
         clues_.add(ring.back());
       }
       if (is_roof) clues_.add_roof(ring);
+      rings_.push_back(std::move(ring));
+      for (const auto& hole : geometry.getPolygon(i)->interiorRings()) {
+        std::vector<glm::dvec3>& inner = rings_.emplace_back();
+        for (const TVec3d& point : points_of(hole)) inner.push_back(vec(point));
+      }
     }
     for (unsigned i = 0; i < geometry.getGeometriesCount(); ++i) add(geometry.getGeometry(i), is_roof);
   }
 
   CoordinateClues clues_;
+  std::vector<std::vector<glm::dvec3>> rings_;  ///< of one geometry
+  bool has_names_ = false;
 };
 
 class Reader {
@@ -224,7 +239,9 @@ class Reader {
   Result<Model> read() {
     for (const citygml::CityObject* object : model_.getRootCityObjects()) read_object(*object);
     beside_pictures_.report(file_, warnings_);
-    return city_.finish(object_count_);
+    Result<Model> model = city_.finish(object_count_);
+    if (model) model->map = coordinates_.map(), model->true_north_deg = coordinates_.true_north_deg();
+    return model;
   }
 
  private:
@@ -467,7 +484,8 @@ Result<Gml2> read_gml_2(const std::filesystem::path& file, Errors& warnings) {
 }  // namespace
 
 Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
-                            std::optional<double> max_detail, std::optional<glm::dvec2>* place_deg) {
+                            std::optional<double> max_detail, std::optional<glm::dvec2>* place_deg,
+                            const std::string& map) {
   const FileLocation where{file.string(), 0, 0};
   Result<Gml2> gml = read_gml_2(file, warnings);
   if (!gml) return gml.errors();
@@ -480,7 +498,7 @@ Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
     const auto city = citygml::load(stream, wanted, complaints);
     if (!city) return error_at(where, "libcitygml cannot read it ({})", complaints->first());
     Result<CityCoordinates> coordinates =
-        CityCoordinates::find(Clues(*city, gml->system).get(), file, warnings);
+        CityCoordinates::find(Clues(*city, gml->system).get(), file, warnings, map);
     if (!coordinates) return coordinates.errors();
     if (place_deg) *place_deg = coordinates->place_deg();
     std::vector<GeoreferencedTexture> draped =

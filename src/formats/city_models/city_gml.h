@@ -18,6 +18,6 @@ namespace parvis::scene {
 /// (city_coordinates.h); `place_deg` is filled with the place on the earth where the file says it.
 Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
                             std::optional<double> max_detail = {},
-                            std::optional<glm::dvec2>* place_deg = nullptr);
+                            std::optional<glm::dvec2>* place_deg = nullptr, const std::string& map = {});
 
 }  // namespace parvis::scene

@@ -11,7 +11,7 @@
 #include "base/test_data.h"
 #include "base/test_folder.h"
 #include "formats/city_models/city_json.h"
-#include "formats/terrain/utm.h"
+#include "formats/terrain/map_projection.h"
 #include "scene/data/test_scene.h"
 
 namespace parvis::scene {
@@ -227,7 +227,7 @@ TEST(CityGml, DegreesBecomeMetresAsInMapsOfOpenStreetMap) {
     if (part.object == "RoofSurface") {
       EXPECT_GT(part.mesh.normals.front().z, 0.9f) << "it is no mirror image";
     }
-  const Utm utm(tokyo_deg);
+  const MapProjection utm = MapProjection::utm(tokyo_deg);
   EXPECT_LT(glm::distance(glm::dvec2(city->origin), utm(tokyo_deg)), 20.0);
   ASSERT_TRUE(place_deg);
   EXPECT_NEAR(place_deg->x, tokyo_deg.x, 1e-3);

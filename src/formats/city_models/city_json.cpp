@@ -119,13 +119,14 @@ std::string system_of(const Json& city) {
   return text(member(metadata, "referenceSystem"));
 }
 
-class Reader {
+class CityJsonReader {
  public:
-  Reader(const fs::path& file, const Json& json, Errors& warnings, std::optional<double> max_detail)
-      : json_(json), max_detail_(max_detail), city_(file, read_vertices(file, warnings), warnings) {}
+  CityJsonReader(const fs::path& file, const Json& json, Errors& warnings, std::optional<double> max_detail,
+                 const std::string& map)
+      : json_(json), max_detail_(max_detail), city_(file, read_vertices(file, map, warnings), warnings) {}
 
   /// The middle of the place on the earth (degrees: east, north), where the file says it.
-  const std::optional<glm::dvec2>& place_deg() const { return place_deg_; }
+  const std::optional<glm::dvec2>& place_deg() const { return coordinates_.place_deg(); }
 
   Result<Model> read() {
     read_templates();
@@ -134,14 +135,16 @@ class Reader {
     if (!objects.is_object()) fail("there are no \"CityObjects\"");
     charge_instances(objects);
     for (const auto& [name, object] : objects.items()) read_object(name, object);
-    return city_.finish(objects.size());
+    Result<Model> model = city_.finish(objects.size());
+    if (model) model->map = coordinates_.map(), model->true_north_deg = coordinates_.true_north_deg();
+    return model;
   }
 
  private:
   // --- vertices and appearance
 
   /// Fills `vertices_`, in metres; gives the middle of the place, in whole metres: heights stay as they are.
-  glm::dvec3 read_vertices(const fs::path& file, Errors& warnings) {
+  glm::dvec3 read_vertices(const fs::path& file, const std::string& map, Errors& warnings) {
     if (!is_city_json(json_)) fail("this is no CityJSON: its \"type\" is {}", member(json_, "type").dump());
     if (const std::string version = version_of(json_); !is_known(version))
       fail("CityJSON version \"{}\" is not known; versions 0.2 to 2.0 are read", version);
@@ -157,13 +160,13 @@ class Reader {
     const std::vector<bool> is_named = named_vertices(json_, vertices_.size());
     CoordinateClues clues = coordinate_clues(json_, vertices_, is_named);
     clues.system = system_of(json_);
-    const Result<CityCoordinates> coordinates = CityCoordinates::find(clues, file, warnings);
+    Result<CityCoordinates> coordinates = CityCoordinates::find(clues, file, warnings, map);
     if (!coordinates) fail("{}", coordinates.errors().front().message);
-    place_deg_ = coordinates->place_deg();
+    coordinates_ = *std::move(coordinates);
     glm::dvec3 low(1e300), high(-1e300);
     for (std::size_t i = 0; i < vertices_.size(); ++i) {
       glm::dvec3& vertex = vertices_[i];
-      vertex = (*coordinates)(vertex);
+      vertex = coordinates_(vertex);
       if (!is_named[i] || !std::isfinite(vertex.x + vertex.y)) continue;
       low = glm::min(low, vertex), high = glm::max(high, vertex);
     }
@@ -455,7 +458,7 @@ class Reader {
 
   const Json& json_;
   std::optional<double> max_detail_;
-  std::optional<glm::dvec2> place_deg_;
+  CityCoordinates coordinates_;
   std::vector<glm::dvec3> vertices_, template_vertices_;
   std::vector<glm::vec2> texture_vertices_;
   CityAssembly city_;
@@ -472,7 +475,7 @@ class Reader {
 }  // namespace
 
 Result<Model> read_city_model(const fs::path& file, Errors& warnings, std::optional<double> max_detail,
-                              std::optional<glm::dvec2>* place_deg) {
+                              std::optional<glm::dvec2>* place_deg, const std::string& map) {
   const FileLocation where{file.string(), 0, 0};
   const Result<std::string> bytes = formats::read_unpacked(file);
   if (!bytes) return bytes.errors();
@@ -482,7 +485,7 @@ Result<Model> read_city_model(const fs::path& file, Errors& warnings, std::optio
     const LeftInWorker<const Result<Json>> json(
         new Result<Json>(is_sequence ? city_json_of_sequence(file, *bytes) : Json::parse(*bytes)));
     if (!*json) return json->errors();
-    Reader reader(file, **json, warnings, max_detail);
+    CityJsonReader reader(file, **json, warnings, max_detail, map);
     if (place_deg) *place_deg = reader.place_deg();
     return reader.read();
   } catch (const Problem& problem) {

@@ -21,6 +21,6 @@ namespace parvis::scene {
 /// with the place on the earth (degrees: east, north) where the file says it.
 Result<Model> read_city_model(const std::filesystem::path& file, Errors& warnings,
                               std::optional<double> max_detail = {},
-                              std::optional<glm::dvec2>* place_deg = nullptr);
+                              std::optional<glm::dvec2>* place_deg = nullptr, const std::string& map = {});
 
 }  // namespace parvis::scene

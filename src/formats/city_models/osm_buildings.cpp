@@ -103,7 +103,7 @@ class Building {
     corners.reserve(rings_.size());
     for (const Ring& ring : rings_) corners.push_back(corners_of(ring));
     const OsmRoofTags roof_tags{tag(tags, "roof:shape"), tag(tags, "roof:orientation") == "across",
-                                degrees_in(tag(tags, "roof:direction"))};
+                                degrees_in(tag(tags, "roof:direction")), degrees_in(tag(tags, "roof:angle"))};
     std::string why_flat;
     roof_ = find_osm_roof(roof_tags, corners, why_flat);
     if (!why_flat.empty()) around.flat.add(footprint.name, roof_tags.shape, why_flat);
@@ -136,12 +136,15 @@ class Building {
     const bool hangs = is_canopy_ && base_m_ >= headroom_m;  // min_height is where its slab begins
     top_m_ = metres_or(tags, "height", "building:levels",
                        base_m_ + (hangs ? canopy_slab_m : usual_height_m(tags)));
-    if (top_m_ <= base_m_)
-      top_m_ = base_m_ + (hangs ? canopy_slab_m : is_canopy_ ? usual_height_m(tags) : osm_level_m);
-    const bool gives_top = !tag(tags, "height").empty();
+    const bool gives_top = metres_in(tag(tags, "height")).has_value();
     const double roof_m =
         std::max(roof_ ? metres_or(tags, "roof:height", "roof:levels", usual_osm_roof_m(*roof_)) : 0.0, 0.0);
-    if (!gives_top) top_m_ += roof_m;  // levels do not count those in the roof
+    if (!gives_top) top_m_ = std::max(top_m_, base_m_) + roof_m;  // levels do not count those in the roof
+    if (top_m_ <= base_m_)
+      top_m_ = base_m_ + (hangs        ? canopy_slab_m
+                          : is_canopy_ ? usual_height_m(tags)
+                                       : metres_or(tags, "roof:height", "roof:levels", osm_level_m));
+    if (top_m_ <= base_m_) top_m_ = base_m_ + osm_level_m;
     eaves_m_ = std::max(top_m_ - roof_m, base_m_);
     if (is_canopy_ && !hangs) base_m_ = std::max(eaves_m_ - canopy_slab_m, 0.0);
   }

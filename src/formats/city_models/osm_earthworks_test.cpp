@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "formats/city_models/test_osm.h"
-#include "formats/terrain/utm.h"
+#include "formats/terrain/map_projection.h"
 #include "scene/data/test_scene.h"
 #include "scene/roads/road_beds.h"
 #include "scene/roads/road_builder.h"
@@ -17,7 +17,7 @@ namespace {
 
 /// A hillside that rises by a fifth to the north, 100 m high at the origin of a test's map.
 GroundOnMap hillside() {
-  const double origin_m = Utm({3.0, 52.16})({3.0, 52.16}).y;
+  const double origin_m = MapProjection::utm({3.0, 52.16})({3.0, 52.16}).y;
   return [origin_m](glm::dvec2 on_map) { return 100.0 + 0.2 * (on_map.y - origin_m); };
 }
 

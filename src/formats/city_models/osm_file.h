@@ -1,6 +1,7 @@
 // The content of an OpenStreetMap file (XML or PBF): nodes, ways and relations with their tags.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -50,19 +51,34 @@ struct OsmNode {
   OsmTags tags;
 };
 
-/// All elements of a file.
+/// All elements of a file, laid on a map.
 struct OsmFile {
-  std::unordered_map<OsmId, glm::dvec2> nodes;  ///< degrees: east, north
+  std::unordered_map<OsmId, glm::dvec2> nodes;  ///< metres on the map: east, north
   std::vector<OsmNode> tagged_nodes;            ///< those that have tags
   std::vector<OsmWay> ways;
   std::vector<OsmRelation> relations;
   std::unordered_map<OsmId, std::size_t> way_of;  ///< index into `ways` by identifier
-  glm::dvec2 min_deg{0.0}, max_deg{0.0};          ///< bounds given by the file, else those of its nodes
+  /// Of the bounds that the file gives, else of those of its nodes: south-west, south-east, north-east,
+  /// north-west, metres on the map.
+  std::array<glm::dvec2, 4> corners{};
+  glm::dvec2 middle{0.0}, middle_deg{0.0};  ///< of the bounds: on the map, and degrees east and north
+  std::string map;                          ///< as Model::map
+  double true_north_deg = 0.0;              ///< as Model::true_north_deg, in the middle
+
+  /// The way of an identifier; null where it is not in the file.
+  const OsmWay* find_way(OsmId id) const {
+    const auto found = way_of.find(id);
+    return found == way_of.end() ? nullptr : &ways[found->second];
+  }
 };
 
 /// Reads a file, .osm as XML and .pbf as Protocolbuffer Binary Format, by libosmium. Errors: what the library
 /// cannot read; XML with a DOCTYPE or that is not well-formed, by line; another kind of file; no nodes.
-/// Nodes without a valid position are left out with a warning; deleted elements are left out.
-Result<OsmFile> read_osm_file(const std::filesystem::path& file, Errors& warnings);
+/// Degrees become metres of `map` (map_projection.h); empty, or where it is not known: of the UTM zone of the
+/// middle, across its borders and the date line, too.
+/// Nodes without a valid position are left out with a warning; deleted elements are left out, those
+/// that an editor has marked with action="delete" too.
+Result<OsmFile> read_osm_file(const std::filesystem::path& file, Errors& warnings,
+                              const std::string& map = {});
 
 }  // namespace parvis::scene

@@ -37,11 +37,13 @@ OsmTags take_tags(Taker& taker) {
   return tags;
 }
 
-/// In the worker; the input is the file's path.
+/// In the worker; the input is the map and the file's path.
 Status read_in_worker(std::string_view input, IsolatedOutput& output) {
-  const std::filesystem::path file(input);
+  Taker taker(input);
+  const std::string map = take_text(taker);
+  const std::filesystem::path file = take_text(taker);
   Errors warnings;
-  const Result<OsmFile> osm = read_osm_file(file, warnings);
+  const Result<OsmFile> osm = read_osm_file(file, warnings, map);
   if (!osm) return osm.errors();
   std::string bytes = formats::bytes_of_warnings(warnings);
   bytes += bytes_of(*osm);
@@ -55,7 +57,9 @@ Status read_in_worker(std::string_view input, IsolatedOutput& output) {
 
 std::string bytes_of(const OsmFile& osm) {
   std::string bytes;
-  append_value(bytes, osm.min_deg), append_value(bytes, osm.max_deg);
+  for (const glm::dvec2& corner : osm.corners) append_value(bytes, corner);
+  append_value(bytes, osm.middle), append_value(bytes, osm.middle_deg);
+  append_text(bytes, osm.map), append_value(bytes, osm.true_north_deg);
   append_value(bytes, std::uint64_t(osm.nodes.size()));
   for (const auto& [id, place] : osm.nodes) append_value(bytes, id), append_value(bytes, place);
   append_value(bytes, std::uint64_t(osm.tagged_nodes.size()));
@@ -86,7 +90,10 @@ Result<OsmFile> osm_file_of(std::string_view bytes, const std::string& subject) 
     is_finite = is_finite && std::isfinite(place.x) && std::isfinite(place.y);
     return place;
   };
-  osm.min_deg = take_place(), osm.max_deg = take_place();
+  for (glm::dvec2& corner : osm.corners) corner = take_place();
+  osm.middle = take_place(), osm.middle_deg = take_place();
+  osm.map = take_text(taker), osm.true_north_deg = taker.take<double>();
+  is_finite = is_finite && std::isfinite(osm.true_north_deg);
   take_each(taker, [&] {
     const OsmId id = taker.take<OsmId>();
     osm.nodes[id] = take_place();
@@ -114,10 +121,12 @@ Result<OsmFile> osm_file_of(std::string_view bytes, const std::string& subject) 
   return osm;
 }
 
-Result<OsmFile> read_osm_file_isolated(const std::filesystem::path& file, Errors& warnings) {
+Result<OsmFile> read_osm_file_isolated(const std::filesystem::path& file, const std::string& map,
+                                       Errors& warnings) {
   const std::string subject = file.string();
-  const Result<IsolatedBytes> made = run_isolated(read_in_worker, std::filesystem::absolute(file).string(),
-                                                  subject, formats::limits_for(file));
+  std::string input;
+  append_text(input, map), append_text(input, std::filesystem::absolute(file).string());
+  const Result<IsolatedBytes> made = run_isolated(read_in_worker, input, subject, formats::limits_for(file));
   if (!made) return made.errors();
   const std::string_view bytes(reinterpret_cast<const char*>(made->bytes().data()), made->bytes().size());
   Taker taker(bytes);

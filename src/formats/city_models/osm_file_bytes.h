@@ -17,6 +17,7 @@ Result<OsmFile> osm_file_of(std::string_view bytes, const std::string& subject);
 
 /// `read_osm_file` in a child process (isolated_reader.h), for models that the program itself assembles
 /// because they stand on a ground whose heights only it knows.
-Result<OsmFile> read_osm_file_isolated(const std::filesystem::path& file, Errors& warnings);
+Result<OsmFile> read_osm_file_isolated(const std::filesystem::path& file, const std::string& map,
+                                       Errors& warnings);
 
 }  // namespace parvis::scene

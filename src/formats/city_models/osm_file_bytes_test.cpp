@@ -12,7 +12,8 @@ namespace {
 
 OsmFile small_map() {
   OsmFile osm;
-  osm.min_deg = {4.0, 52.0}, osm.max_deg = {4.01, 52.01};
+  osm.corners = {{{4.0, 52.0}, {4.01, 52.0}, {4.01, 52.01}, {4.0, 52.01}}};
+  osm.map = "EPSG:32631";
   osm.nodes = {{1, {4.0, 52.0}}, {-2, {4.01, 52.01}}};
   osm.tagged_nodes = {{1, {{"natural", "tree"}}}};
   osm.ways = {{7, {1, -2, 1}, {{"highway", "primary"}, {"name", "A"}}}};
@@ -48,13 +49,13 @@ TEST(OsmFileBytes, AFileReadInAChildIsTheOneReadHere) {
       "v=\"tree\"/></node><node id=\"2\" lat=\"91\" lon=\"4\"/><way id=\"3\"><nd ref=\"1\"/><nd "
       "ref=\"2\"/></way></osm>");
   Errors here, there;
-  const Result<OsmFile> read = read_osm_file(file, here), isolated = read_osm_file_isolated(file, there);
+  const Result<OsmFile> read = read_osm_file(file, here), isolated = read_osm_file_isolated(file, {}, there);
   ASSERT_TRUE(read.ok() && isolated.ok());
   EXPECT_EQ(bytes_of(*read), bytes_of(*isolated));
   EXPECT_EQ(to_string(here), to_string(there));
   EXPECT_FALSE(here.empty()) << "a node beyond the pole";
   Errors warnings;
-  EXPECT_FALSE(read_osm_file_isolated(folder.write("n.osm", "<osm><node"), warnings));
+  EXPECT_FALSE(read_osm_file_isolated(folder.write("n.osm", "<osm><node"), {}, warnings));
 }
 
 }  // namespace

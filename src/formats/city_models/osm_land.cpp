@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
+#include "formats/city_models/osm_measures.h"
 #include "formats/city_models/osm_relief.h"
 #include "formats/city_models/osm_shapes.h"
 
@@ -98,10 +98,7 @@ const Ribbon* ribbon_of(const OsmTags& tags) {
 }
 
 double width_m(const OsmTags& tags, double usual_m) {
-  const std::string& text = tag(tags, "width");
-  double given = 0.0;
-  std::from_chars(text.data(), text.data() + text.size(), given);
-  return given > 0.3 && given < 200.0 ? given : usual_m;
+  return metres_within(tags, "width", 0.3, 200.0, usual_m);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST(OsmPassages, HeightsAreThoseOfTheTagsAboveTheGroundOfTheWay) {
     return bounds_of(*town.model, ceiling).max.z;
   };
   EXPECT_NEAR(top_m(passage({{"maxheight", "4.2"}}), {}), 4.2f, 1e-3f);
-  EXPECT_NEAR(top_m(passage({{"maxheight", "13'6&quot;"}}), {}), 13.0 * 0.3048, 1e-2);
+  EXPECT_NEAR(top_m(passage({{"maxheight", "13'6&quot;"}}), {}), 13.5 * 0.3048, 1e-2);
   EXPECT_NEAR(top_m(passage({{"maxheight", "default"}}), {}), 3.5f, 1e-3f);
   EXPECT_NEAR(top_m({{"railway", "tram"}, {"tunnel", "building_passage"}}, {}), 5.0f, 1e-3f);
   EXPECT_NEAR(top_m({{"highway", "footway"}, {"tunnel", "building_passage"}}, {}), 3.5f, 1e-3f);

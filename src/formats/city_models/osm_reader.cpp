@@ -1,32 +1,29 @@
 #include "formats/city_models/osm_reader.h"
 
 #include <cmath>
-#include <unordered_map>
 
 #include "formats/city_models/city_assembly.h"
 #include "formats/city_models/osm_buildings.h"
 #include "formats/city_models/osm_earthworks.h"
 #include "formats/city_models/osm_file.h"
 #include "formats/city_models/osm_land.h"
+#include "formats/city_models/osm_measures.h"
 #include "formats/city_models/osm_roads.h"
 #include "formats/city_models/osm_things.h"
 #include "formats/city_models/osm_trenches.h"
 #include "formats/city_models/osm_woods.h"
-#include "formats/terrain/utm.h"
 
 namespace parvis::scene {
 namespace {
 
-constexpr double largest_m = 100'000.0;  // no city is so wide, and floats end at centimetres there
+constexpr double max_city_m = 100'000.0;  // no city is so wide, and floats end at centimetres there
 
 /// OpenStreetMap knows no heights of the ground: it is level, over the file's bounds.
-void add_ground(const OsmFile& osm, const Utm& utm, const glm::dvec3& origin, const OsmTrenches& trenches,
+void add_ground(const OsmFile& osm, const glm::dvec3& origin, const OsmTrenches& trenches,
                 CityAssembly& city) {
   std::vector<std::vector<glm::dvec3>> rings;
   std::vector<glm::dvec3>& ring = rings.emplace_back();
-  for (const glm::dvec2 corner : {osm.min_deg, glm::dvec2(osm.max_deg.x, osm.min_deg.y), osm.max_deg,
-                                  glm::dvec2(osm.min_deg.x, osm.max_deg.y)})
-    ring.emplace_back(utm(corner), origin.z);
+  for (const glm::dvec2& corner : osm.corners) ring.emplace_back(corner, origin.z);
   trenches.add_level(rings, {{"ground", "LandUse", ""}}, city);
 }
 
@@ -47,25 +44,19 @@ Error nothing_to_show(const OsmFile& osm, const FileLocation& where, bool has_gr
 Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file, Errors& warnings,
                            const GroundOnMap& ground, std::optional<glm::dvec2>* place_deg) {
   const FileLocation where{file.string(), 0, 0};
-  const glm::dvec2 middle_deg = (osm.min_deg + osm.max_deg) / 2.0;
-  const Utm utm(middle_deg);
-  const glm::dvec2 size_m = utm(osm.max_deg) - utm(osm.min_deg);
-  if (!(glm::length(size_m) < largest_m))
+  const glm::dvec2 size_m = osm.corners[2] - osm.corners[0];
+  if (!(glm::length(size_m) < max_city_m))
     return error_at(where,
                     "its bounds are wider than {:.0f} km; cut out the part that you need (osmium extract)",
-                    largest_m / 1000.0);
-  if (place_deg) *place_deg = middle_deg;
-  const glm::dvec3 origin(glm::floor(utm(middle_deg)), 0.0);
-  std::unordered_map<OsmId, glm::dvec2> places;  // projected once: ways are walked many times
-  places.reserve(osm.nodes.size());
-  for (const auto& [node, deg] : osm.nodes)
-    if (const glm::dvec2 spot = utm(deg); glm::distance(spot, glm::dvec2(origin)) < largest_m)
-      places.emplace(node, spot);
+                    max_city_m / 1000.0);
+  if (place_deg) *place_deg = osm.middle_deg;
+  const glm::dvec3 origin(glm::floor(osm.middle), 0.0);
   const auto on_map = [&](OsmId node) -> std::optional<glm::dvec2> {
-    const auto found = places.find(node);
-    return found == places.end() ? std::nullopt : std::optional(found->second);
+    const auto found = osm.nodes.find(node);
+    return found == osm.nodes.end() ? std::nullopt : std::optional(found->second);
   };
   CityAssembly city(file, origin, warnings);
+  report_unread_measures(osm, city);
   const OsmPlaces place = on_map;
   const OsmRelief relief(osm, place, !ground);
   const OsmTrenches trenches(osm, relief);
@@ -73,7 +64,7 @@ Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file
   const GroundOnMap shaped = ground_shaped_for(roads, ground, origin);
   const std::size_t buildings = add_osm_buildings(osm, on_map, shaped, city);
   if (!ground) {
-    add_ground(osm, utm, origin, trenches, city);
+    add_ground(osm, origin, trenches, city);
     add_osm_land(osm, place, origin.z, trenches, city);
     add_osm_tunnels(osm, relief, city);
     add_osm_crossings(osm, place, roads, origin, city);
@@ -84,13 +75,16 @@ Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file
   add_osm_bridges(osm, relief, ground, half_carriageway_m, city);
   if (city.polygon_count() == 0) return nothing_to_show(osm, where, bool(ground), warnings);
   Result<Model> model = city.finish(buildings);
-  if (model) model->roads = std::move(roads);
+  if (!model) return model;
+  model->roads = std::move(roads);
+  model->map = osm.map;
+  model->true_north_deg = osm.true_north_deg;
   return model;
 }
 
 Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, const GroundOnMap& ground,
-                       std::optional<glm::dvec2>* place_deg) {
-  const Result<OsmFile> osm = read_osm_file(file, warnings);
+                       std::optional<glm::dvec2>* place_deg, const std::string& map) {
+  const Result<OsmFile> osm = read_osm_file(file, warnings, map);
   if (!osm) return osm.errors();
   return model_of_osm(*osm, file, warnings, ground, place_deg);
 }

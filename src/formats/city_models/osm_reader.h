@@ -13,12 +13,12 @@
 
 namespace parvis::scene {
 
-/// Metres on the map of the file's UTM zone, about the middle of its bounds: `Model::origin` says where that
-/// is. All stands on the ground that is given, else on a level one at z = 0, which is added with what lies on
-/// it. What is incomplete is reported in `warnings` by its id, and the rest is read. `place_deg` is filled
-/// with the middle of the bounds (degrees: east, north).
+/// Metres on `map`, or on that of the file's UTM zone, about the middle of its bounds: `Model::origin` says
+/// where that is. All stands on the ground that is given, else on a level one at z = 0, which is added with
+/// what lies on it. What is incomplete is reported in `warnings` by its id, and the rest is read. `place_deg`
+/// is filled with the middle of the bounds (degrees: east, north).
 Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, const GroundOnMap& ground = {},
-                       std::optional<glm::dvec2>* place_deg = nullptr);
+                       std::optional<glm::dvec2>* place_deg = nullptr, const std::string& map = {});
 /// The same from the content of `file`, which has been read.
 Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file, Errors& warnings,
                            const GroundOnMap& ground = {}, std::optional<glm::dvec2>* place_deg = nullptr);

@@ -15,8 +15,9 @@
 #include "base/test_folder.h"
 #include "formats/city_models/osm_things.h"
 #include "formats/city_models/osm_woods.h"
+#include "formats/city_models/test_osm.h"
 #include "formats/readers/test_packing.h"
-#include "formats/terrain/utm.h"
+#include "formats/terrain/map_projection.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/test_scene.h"
 #include "scene/roads/road_builder.h"
@@ -56,13 +57,6 @@ Read read(const std::string& text) {
   Errors warnings;
   Result<Model> model = read_osm(folder.write("quarter.osm", text), warnings);
   return {std::move(model), to_string(warnings)};
-}
-
-Bounds bounds_of(const Model& model, const std::string& name) {
-  Bounds all;
-  for (const Part& part : model.parts)
-    if (part.object == name) all.add(part.mesh.bounds());
-  return all;
 }
 
 // Of the footprint 1-2-3-4: 0.0002 by 0.0001 degrees at 52.16 north, on the ellipsoid and in UTM's scale.
@@ -111,6 +105,48 @@ TEST(Osm, LevelsGiveTheHeightWhereNoHeightDoes) {
   EXPECT_NEAR(top_m({{"building", "yes"}, {"min_height", "20"}, {"height", "5"}}), 23.0f, 1e-4f);
 }
 
+TEST(Osm, HousesOfNoLevelsAreAllRoof) {
+  const auto house = [](const std::string& key, const std::string& value) {
+    return read(
+        osm(way(100, "1 2 3 4 1",
+                {{"building", "yes"}, {"roof:shape", "gabled"}, {"building:levels", "0"}, {key, value}})));
+  };
+  for (const auto& [key, value, top_m] :
+       {std::tuple{"roof:height", "4.5", 4.5f}, std::tuple{"roof:levels", "2", 6.0f}}) {
+    const Read hall = house(key, value);
+    ASSERT_TRUE(hall.model) << to_string(hall.model.errors());
+    const Bounds roof = bounds_of(*hall.model, "RoofSurface");
+    EXPECT_NEAR(roof.min.z, 0.0f, 1e-4f) << key;
+    EXPECT_NEAR(roof.max.z, top_m, 1e-4f) << key;
+    EXPECT_NEAR(area_m2(*hall.model, "WallSurface"), double(deep_m * top_m), 0.3) << "two gables alone";
+  }
+}
+
+TEST(Osm, RoofsRiseByTheirAngle) {
+  const Read house =
+      read(osm(way(100, "1 2 3 4 1",
+                   {{"building", "yes"}, {"height", "12"}, {"roof:shape", "gabled"}, {"roof:angle", "45"}})));
+  ASSERT_TRUE(house.model);
+  const Bounds roof = bounds_of(*house.model, "RoofSurface");
+  EXPECT_NEAR(roof.size().z, 0.5f * deep_m, 0.02f);
+  EXPECT_NEAR(roof.max.z, 12.0f, 1e-4f);
+}
+
+TEST(Osm, ElementsThatAnEditorHasDeletedAreLeftOut) {
+  // A house by its way, a corner of another by its node, a courtyard by its relation.
+  const Read town = read(
+      osm(way(100, "1 2 3 4 1", {{"building", "yes"}}) +
+          R"(<way id="101" action='delete' visible="true"><nd ref="5"/><nd ref="6"/><nd ref="7"/><nd ref="8"/>
+<nd ref="5"/><tag k="building" v="yes"/><tag k="height" v="40"/></way>
+<relation id="9" action="delete"><member type="way" ref="100" role="outer"/><tag k="type" v="multipolygon"/>
+<tag k="building" v="yes"/><tag k="height" v="50"/></relation>
+<node id="-7" lat="52.17" lon="4.49" action="delete"><tag k="natural" v="tree"/></node>)"));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  EXPECT_NEAR(bounds_of(*town.model, "RoofSurface").max.z, 6.0f, 1e-4f);
+  EXPECT_FALSE(bounds_of(*town.model, "SolitaryVegetationObject").max.z > 0.0f);
+  EXPECT_EQ(town.warnings, "");
+}
+
 TEST(Osm, RoofsHaveTheirShapes) {
   for (const char* shape : {"gabled", "hipped", "pyramidal", "mansard", "dome", "gambrel", "round"}) {
     const Read house =
@@ -133,7 +169,7 @@ TEST(Osm, BuildingsAndRoadsStandOnTheGroundThatIsGiven) {
                       way(101, "5 6 7 8 5", {{"building:part", "yes"}, {"height", "5"}}) +
                       way(102, "11 12 13", {{"highway", "residential"}}) +
                       way(103, "5 6 7 8 5", {{"building", "yes"}, {"height", "4"}, {"min_height", "1"}})));
-  const double middle_m = Utm({4.49, 52.16})({4.4905, 52.16}).x;
+  const double middle_m = MapProjection::utm({4.49, 52.16})({4.4905, 52.16}).x;
   const auto ground = [&](glm::dvec2 on_map) {
     return 100.0 + 0.1 * (on_map.x - middle_m);
   };  // rises eastward
@@ -215,6 +251,29 @@ TEST(Osm, MissingNodesAreReportedAndTheRestIsRead) {
   EXPECT_NEAR(area_m2(*house.model, "RoofSurface"), double(wide_m * deep_m), 0.3);
   ASSERT_EQ(house.model->roads.size(), 1u);
   EXPECT_EQ(house.model->roads[0].path.size(), 3u);
+}
+
+TEST(Osm, TwoWayStreetsHaveTheLanesOfEachDirection) {
+  using Tags = std::vector<std::pair<std::string, std::string>>;
+  const auto lanes = [](Tags tags) {
+    tags.emplace_back("highway", "secondary");
+    const Read town = read(osm(way(100, "11 12 13", tags)));
+    EXPECT_TRUE(town.model) << to_string(town.model.errors());
+    const Road road = town.model ? town.model->roads.at(0) : Road{};
+    const Result<RoadGraph> graph = build_road_graph(std::vector<Road>{road});
+    EXPECT_TRUE(graph) << to_string(graph.errors());
+    return std::pair(road.lanes_each_way, road.lanes_against());
+  };
+  EXPECT_EQ(lanes({{"lanes", "3"}}), std::pair(2, 1));
+  EXPECT_EQ(lanes({{"lanes", "3"}, {"lanes:backward", "2"}}), std::pair(1, 2));
+  EXPECT_EQ(lanes({{"lanes:forward", "3"}, {"lanes:backward", "1"}}), std::pair(3, 1));
+  EXPECT_EQ(lanes({{"lanes:forward", "2"}}), std::pair(2, 1));
+  EXPECT_EQ(
+      lanes({{"lanes", "5"}, {"lanes:both_ways", "1"}, {"lanes:forward", "2"}, {"lanes:backward", "2"}}),
+      std::pair(3, 2));
+  EXPECT_EQ(lanes({{"lanes", "1"}}), std::pair(1, 1)) << "one that both directions share";
+  EXPECT_EQ(lanes({}), std::pair(1, 1));
+  EXPECT_EQ(lanes({{"oneway", "-1"}, {"lanes:backward", "2"}}), std::pair(2, 0));
 }
 
 TEST(Osm, RoadsHaveLanesDirectionsAndLimits) {
@@ -612,6 +671,27 @@ TEST(Osm, ZebrasCrossTheRoadThatTheyLieOn) {
   EXPECT_NEAR(area_m2(*town.model, "CityFurniture"), 6 * 0.5 * 3.0, 1.6) << "stripes over 6 m";
 }
 
+TEST(Osm, CrossingsArePaintedAsTheirTagsSay) {
+  const auto paint_m2 = [](const std::string& key, const std::string& value) {
+    const Read town = read(osm(
+        fmt::format(
+            R"(<node id="12" lat="52.1595" lon="4.4905"><tag k="highway" v="crossing"/><tag k="{}" v="{}"/></node>)",
+            key, value) +
+        way(100, "11 12 13", {{"highway", "residential"}})));
+    return town.model ? area_m2(*town.model, "CityFurniture") : -1.0;
+  };
+  const double stripes_m2 = paint_m2("crossing", "zebra");
+  EXPECT_EQ(paint_m2("crossing", "uncontrolled"), stripes_m2);
+  EXPECT_EQ(paint_m2("crossing_ref", "zebra"), stripes_m2);
+  EXPECT_EQ(paint_m2("crossing:markings", "zebra:double"), stripes_m2);
+  EXPECT_NEAR(paint_m2("crossing:markings", "lines"), 2 * 6.0 * 0.15, 0.01) << "from kerb to kerb";
+  for (const char* broken : {"dashes", "dots"}) {
+    EXPECT_GT(paint_m2("crossing:markings", broken), 0.2) << broken;
+    EXPECT_LT(paint_m2("crossing:markings", broken), 1.2) << broken;
+  }
+  for (const char* bare : {"unmarked", "no"}) EXPECT_EQ(paint_m2("crossing", bare), 0.0) << bare;
+}
+
 /// The same content as a file of the other format, by libosmium.
 std::filesystem::path as_pbf(const std::filesystem::path& xml) {
   osmium::io::Reader reader(osmium::io::File(xml.string()));
@@ -696,21 +776,22 @@ TEST(Osm, ARoadAlongAnotherIsLeftOutByItsName) {
 TEST(Osm, TheOriginIsOnTheMap) {
   const Read house = read(osm(way(100, "1 2 3 4 1", {{"building", "yes"}})));
   ASSERT_TRUE(house.model);
-  const Utm utm({4.4905, 52.16});
-  EXPECT_EQ(utm.epsg(), 32631);
+  const MapProjection utm = MapProjection::utm({4.4905, 52.16});
+  EXPECT_EQ(utm.system(), "EPSG:32631");
+  EXPECT_EQ(house.model->map, utm.system());
   const glm::dvec2 corner = utm({4.49, 52.16}) - glm::dvec2(house.model->origin);
   const Bounds walls = bounds_of(*house.model, "WallSurface");
   EXPECT_NEAR(walls.min.x, float(corner.x), 0.3f);
   EXPECT_NEAR(walls.min.y, float(corner.y), 0.3f);
 }
 
-TEST(Utm, KnowsTheMapOfTheWorld) {
+TEST(MapProjection, KnowsTheMapOfTheWorld) {
   // on a central meridian easting is 500 km; the equator's northing is 0, or 10,000 km for the south
-  EXPECT_NEAR(Utm({3.0, 0.0})({3.0, 0.0}).x, 500'000.0, 1e-6);
-  EXPECT_NEAR(Utm({3.0, 0.0})({3.0, 0.0}).y, 0.0, 1e-6);
-  EXPECT_NEAR(Utm({3.0, -1e-9})({3.0, -1e-9}).y, 10'000'000.0, 1e-3);
+  EXPECT_NEAR(MapProjection::utm({3.0, 0.0})({3.0, 0.0}).x, 500'000.0, 1e-6);
+  EXPECT_NEAR(MapProjection::utm({3.0, 0.0})({3.0, 0.0}).y, 0.0, 1e-6);
+  EXPECT_NEAR(MapProjection::utm({3.0, -1e-9})({3.0, -1e-9}).y, 10'000'000.0, 1e-3);
   // the Eiffel tower: 31N 448252 5411933
-  const glm::dvec2 eiffel = Utm({2.2945, 48.8582})({2.2945, 48.8582});
+  const glm::dvec2 eiffel = MapProjection::utm({2.2945, 48.8582})({2.2945, 48.8582});
   EXPECT_NEAR(eiffel.x, 448'252.0, 10.0);
   EXPECT_NEAR(eiffel.y, 5'411'933.0, 30.0);
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <queue>
 
+#include "formats/city_models/osm_measures.h"
 #include "formats/city_models/osm_roads.h"
 
 namespace parvis::scene {
@@ -49,10 +50,10 @@ bool says_yes(const OsmTags& tags, const std::string& key) {
 bool is_bridge(const OsmTags& tags) { return says_yes(tags, "bridge"); }
 
 bool is_underground(const OsmTags& tags) {
-  const bool has_storeys_below_alone = tag(tags, "building:levels") == "0" &&
-                                       says_yes(tags, "building:levels:underground") &&
-                                       tag(tags, "building:levels:underground") != "0" &&
-                                       tag(tags, "height").empty() && tag(tags, "roof:levels").empty();
+  const bool has_storeys_below_alone =
+      number_in(tag(tags, "building:levels")) == 0.0 && says_yes(tags, "building:levels:underground") &&
+      tag(tags, "building:levels:underground") != "0" && tag(tags, "height").empty() &&
+      tag(tags, "roof:levels").empty() && tag(tags, "roof:height").empty();
   return (says_yes(tags, "tunnel") && tag(tags, "tunnel") != "building_passage") ||
          tag(tags, "location") == "underground" || has_storeys_below_alone;
 }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "formats/city_models/osm_measures.h"
 #include "scene/roads/road_builder.h"
 
 namespace parvis::scene {
@@ -17,62 +18,78 @@ constexpr double narrowest_lane_m = 1.5, widest_lane_m = 6.0;
 constexpr float aisle_speed_km_h = 15.0f;  // in car parks, driveways, alleys
 constexpr float ground_step_m = 10.0f;     // between points of a road on uneven ground
 
-struct Kind {
+struct RoadKind {
   const char* name;
   int lanes_each_way;
   float speed_km_h, lane_width_m;
 };
 /// What a way of each kind has where its tags do not say.
-constexpr std::array<Kind, 9> kinds{{{"motorway", 2, 120, 3.5f},
-                                     {"trunk", 1, 90, 3.5f},
-                                     {"primary", 1, 50, 3.25f},
-                                     {"secondary", 1, 50, 3.25f},
-                                     {"tertiary", 1, 50, 3.0f},
-                                     {"unclassified", 1, 50, 3.0f},
-                                     {"residential", 1, 30, 3.0f},
-                                     {"living_street", 1, 10, 2.75f},
-                                     {"service", 1, 20, 2.75f}}};
+constexpr std::array<RoadKind, 9> kinds{{{"motorway", 2, 120, 3.5f},
+                                         {"trunk", 1, 90, 3.5f},
+                                         {"primary", 1, 50, 3.25f},
+                                         {"secondary", 1, 50, 3.25f},
+                                         {"tertiary", 1, 50, 3.0f},
+                                         {"unclassified", 1, 50, 3.0f},
+                                         {"residential", 1, 30, 3.0f},
+                                         {"living_street", 1, 10, 2.75f},
+                                         {"service", 1, 20, 2.75f}}};
 
-const Kind* kind_of(const OsmTags& tags) {
+const RoadKind* kind_of(const OsmTags& tags) {
   std::string name = tag(tags, "highway");
   if (name.ends_with("_link")) name.resize(name.size() - 5);
   const auto found =
-      std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return name == kind.name; });
+      std::find_if(kinds.begin(), kinds.end(), [&](const RoadKind& kind) { return name == kind.name; });
   return found != kinds.end() && tag(tags, "area") != "yes" ? &*found : nullptr;
 }
 
-std::optional<double> number(const std::string& text) {
-  double value = 0.0;
-  if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc()) return std::nullopt;
-  return value;
-}
-
-float speed_m_s(const OsmWay& way, const Kind& kind) {
+float speed_m_s(const OsmWay& way, const RoadKind& kind) {
   constexpr double km_per_mile = 1.609344;
   const std::string& written = tag(way.tags, "maxspeed");
-  const double given = number(written).value_or(0.0) * (written.ends_with("mph") ? km_per_mile : 1.0);
+  double given = 0.0;
+  std::from_chars(written.data(), written.data() + written.size(), given);
+  if (written.ends_with("mph")) given *= km_per_mile;
   const float km_h = given >= 1.0 && given <= 300.0 ? float(given) : kind.speed_km_h;
   const bool is_aisle = !tag(way.tags, "service").empty();
   return (is_aisle ? std::min(km_h, aisle_speed_km_h) : km_h) * m_s_per_km_h;
 }
 
-bool is_one_way(const OsmWay& way, const Kind& kind) {
+bool is_one_way(const OsmWay& way, const RoadKind& kind) {
   const std::string& one_way = tag(way.tags, "oneway");
   return one_way == "yes" || one_way == "1" || one_way == "true" || one_way == "-1" ||
          tag(way.tags, "junction") == "roundabout" ||
          (one_way.empty() && std::string(kind.name) == "motorway");
 }
 
-int lanes_each_way(const OsmWay& way, const Kind& kind) {
-  const double lanes = number(tag(way.tags, "lanes")).value_or(0.0);
-  if (!(lanes >= 1.0 && lanes <= 16.0)) return kind.lanes_each_way;
-  return std::clamp(int(lanes) / (is_one_way(way, kind) ? 1 : 2), 1, 8);
+struct Lanes {
+  int along, against;
+};
+
+/// Lanes of each direction. Of an odd number without directions the one in the middle runs along the way, as
+/// does one that lanes:both_ways shares; a single lane is shared by cars of both directions.
+Lanes lanes_of(const OsmWay& way, const RoadKind& kind) {
+  constexpr int max_lanes = 16, max_each_way = 8;
+  const auto count = [&](const char* key) {
+    const double given = number_in(tag(way.tags, key)).value_or(0.0);
+    return given >= 1.0 && given <= max_lanes ? int(given) : 0;
+  };
+  const int all = count("lanes"), forward = count("lanes:forward") + count("lanes:both_ways"),
+            backward = count("lanes:backward");
+  if (is_one_way(way, kind)) {
+    const int given = all > 0 ? all : std::max(forward, backward);
+    return {given > 0 ? std::min(given, max_each_way) : kind.lanes_each_way, 0};
+  }
+  Lanes lanes{forward, backward};
+  if (lanes.along == 0 && lanes.against == 0 && all == 0) return {kind.lanes_each_way, kind.lanes_each_way};
+  if (lanes.along == 0 && lanes.against == 0) lanes.against = all / 2;
+  if (lanes.along == 0) lanes.along = all > 0 ? all - lanes.against : kind.lanes_each_way;
+  if (lanes.against == 0) lanes.against = all > 0 ? all - lanes.along : kind.lanes_each_way;
+  return {std::clamp(lanes.along, 1, max_each_way), std::clamp(lanes.against, 1, max_each_way)};
 }
 
 /// Of the width that is given, else what is usual; a single lane for both directions is shared.
-float lane_width_m(const OsmWay& way, const Kind& kind) {
-  const double lanes = lanes_each_way(way, kind) * (is_one_way(way, kind) ? 1.0 : 2.0);
-  const double given_m = number(tag(way.tags, "width")).value_or(0.0) / lanes;
+float lane_width_m(const OsmWay& way, const RoadKind& kind) {
+  const Lanes lanes = lanes_of(way, kind);
+  const double given_m = metres_in(tag(way.tags, "width")).value_or(0.0) / (lanes.along + lanes.against);
   if (given_m >= narrowest_lane_m && given_m <= widest_lane_m) return float(given_m);
   const std::string& service = tag(way.tags, "service");
   if (service == "driveway" || service == "alley" || tag(way.tags, "lanes") == "1")
@@ -95,7 +112,7 @@ class Roads {
   std::vector<Road> read() {
     std::vector<Road> roads;
     for (const OsmWay& way : osm_.ways)
-      if (const Kind* kind = kind_of(way.tags); kind && !is_left_out(way.tags))
+      if (const RoadKind* kind = kind_of(way.tags); kind && !is_left_out(way.tags))
         if (Road road = read(way, *kind); road.path.size() >= 2) roads.push_back(std::move(road));
     return roads;
   }
@@ -105,7 +122,7 @@ class Roads {
     return is_underground(tags) && (bool(ground_) || !is_tunnel(tags));
   }
 
-  Road read(const OsmWay& way, const Kind& kind) {
+  Road read(const OsmWay& way, const RoadKind& kind) {
     Road road;
     road.name = fmt::format("way {}", way.id);
     road.where = {file_.string(), 0, 0};
@@ -117,7 +134,9 @@ class Roads {
     if (ground_) road.path = laid_on_ground(road.path);
     if (tag(way.tags, "oneway") == "-1") std::reverse(road.path.begin(), road.path.end());
     road.is_one_way = is_one_way(way, kind);
-    road.lanes_each_way = lanes_each_way(way, kind);
+    const Lanes lanes = lanes_of(way, kind);
+    road.lanes_each_way = lanes.along;
+    road.lanes_back = lanes.against == lanes.along ? 0 : lanes.against;
     road.lane_width_m = lane_width_m(way, kind);
     road.speed_limit = speed_m_s(way, kind);
     return road;
@@ -180,10 +199,10 @@ void leave_out_unbuildable(std::vector<Road>& roads, CityAssembly& city) {
 bool is_street(const OsmTags& tags) { return kind_of(tags) != nullptr; }
 
 double half_carriageway_m(const OsmWay& way) {
-  const Kind* kind = kind_of(way.tags);
+  const RoadKind* kind = kind_of(way.tags);
   if (!kind) return 0.0;
-  return 0.5 * double(lane_width_m(way, *kind)) * lanes_each_way(way, *kind) *
-         (is_one_way(way, *kind) ? 1.0 : 2.0);
+  const Lanes lanes = lanes_of(way, *kind);
+  return 0.5 * double(lane_width_m(way, *kind)) * (lanes.along + lanes.against);
 }
 
 std::vector<Road> osm_roads(const OsmFile& osm, const OsmPlaces& place, const OsmRelief& relief,

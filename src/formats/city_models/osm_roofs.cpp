@@ -104,11 +104,29 @@ Faces stacked_rings(const OsmRing& corners, double eaves_m, double top_m,
   return faces;
 }
 
-/// Four corners in the order in which the ridge runs from the middle of the last side to that of the second.
+dvec2 towards(double direction_deg) {
+  const double angle = direction_deg * std::numbers::pi / 180.0;
+  return {std::sin(angle), std::cos(angle)};
+}
+
+/// Where the side that begins at a corner looks, of a ring that runs counter-clockwise.
+dvec2 outward(const OsmRing& ring, std::size_t corner) {
+  const dvec2 side = ring[(corner + 1) % ring.size()] - ring[corner];
+  return dvec2(side.y, -side.x) / std::max(glm::length(side), straight_m);
+}
+
+/// Four corners in the order in which the ridge runs from the middle of the last side to that of the second;
+/// the main face rises from the third side. Without a direction the ridge runs along the longer sides.
 std::array<dvec2, 4> along_ridge(const OsmRoofTags& tags, const OsmRing& ring) {
   const bool first_is_longer = glm::distance(ring[0], ring[1]) >= glm::distance(ring[1], ring[2]);
-  const std::size_t first = first_is_longer != tags.runs_across ? 0 : 1;
-  return {ring[first], ring[first + 1], ring[(first + 2) % 4], ring[(first + 3) % 4]};
+  std::size_t first = first_is_longer != tags.runs_across ? 0 : 1;
+  if (tags.direction_deg) {
+    const dvec2 main = towards(*tags.direction_deg);
+    for (std::size_t i = 0; i < 4; ++i)
+      if (glm::dot(outward(ring, (i + 2) % 4), main) > glm::dot(outward(ring, (first + 2) % 4), main) + 1e-9)
+        first = i;
+  }
+  return {ring[first], ring[(first + 1) % 4], ring[(first + 2) % 4], ring[(first + 3) % 4]};
 }
 
 /// Roofs that have the same profile all along their ridge. `ridge_share`: where it lies across, 0.5 in the
@@ -178,10 +196,7 @@ Faces along_skeleton(const StraightSkeleton& skeleton, const std::vector<bool>& 
 
 /// Where a skillion falls to: as tagged, else over the shorter way, to the first of the two longest sides.
 dvec2 downhill(const OsmRoofTags& tags, const OsmRing& corners) {
-  if (tags.direction_deg) {
-    const double angle = *tags.direction_deg * std::numbers::pi / 180.0;
-    return {std::sin(angle), std::cos(angle)};
-  }
+  if (tags.direction_deg) return towards(*tags.direction_deg);
   dvec2 longest(0.0);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const dvec2 side = corners[(i + 1) % corners.size()] - corners[i];
@@ -239,6 +254,27 @@ double shorter_side_m(const OsmRing& ring) {
   return std::min(glm::distance(ring[0], ring[1]), glm::distance(ring[1], ring[2]));
 }
 
+/// How far the eaves lie below the top where all faces rise as steeply: by their run in plan. Nothing for
+/// roofs whose faces have several slopes.
+std::optional<double> run_m(const OsmRoof& roof) {
+  if (roof.skeleton) return roof.skeleton->highest_m();
+  if (roof.shape == "skillion") {
+    const dvec2 ends = reach(roof.corners, downhill(roof.tags, roof.corners));
+    return ends.y - ends.x;
+  }
+  if (roof.shape == "gabled" || roof.shape == "half-hipped") {
+    const std::array<dvec2, 4> c = along_ridge(roof.tags, roof.corners);
+    const dvec2 ridge = glm::normalize(c[1] + c[2] - c[0] - c[3]), across = 0.5 * (c[2] + c[3] - c[0] - c[1]);
+    return 0.5 * std::abs(ridge.x * across.y - ridge.y * across.x);
+  }
+  if (roof.shape != "pyramidal") return std::nullopt;
+  double nearest_m = 1e30;
+  const dvec2 centre = middle(roof.corners);
+  for (std::size_t i = 0; i < roof.corners.size(); ++i)
+    nearest_m = std::min(nearest_m, std::abs(glm::dot(centre - roof.corners[i], outward(roof.corners, i))));
+  return nearest_m;
+}
+
 }  // namespace
 
 std::optional<OsmRoof> find_osm_roof(const OsmRoofTags& tags, const std::vector<OsmRing>& rings,
@@ -265,6 +301,9 @@ std::optional<OsmRoof> find_osm_roof(const OsmRoofTags& tags, const std::vector<
 }
 
 double usual_osm_roof_m(const OsmRoof& roof) {
+  constexpr double flattest_deg = 0.5, steepest_deg = 85.0;
+  if (roof.tags.angle_deg >= flattest_deg && roof.tags.angle_deg <= steepest_deg)
+    if (const auto run = run_m(roof)) return *run * std::tan(*roof.tags.angle_deg * std::numbers::pi / 180.0);
   const double side_m = std::sqrt(std::abs(area_m2(roof.corners)));
   if (roof.skeleton) return slope * roof.skeleton->highest_m();
   if (roof.shape == "skillion") {

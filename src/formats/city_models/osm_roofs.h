@@ -12,9 +12,11 @@ namespace parvis::scene {
 
 /// What a building's tags say of its roof.
 struct OsmRoofTags {
-  std::string shape;                    ///< value of roof:shape
-  bool runs_across = false;             ///< roof:orientation=across: the ridge runs along the shorter sides
-  std::optional<double> direction_deg;  ///< roof:direction: where a skillion falls to, clockwise from north
+  std::string shape;         ///< value of roof:shape
+  bool runs_across = false;  ///< roof:orientation=across: the ridge runs along the shorter sides
+  /// roof:direction: where the main face falls to, clockwise from north. A ridge is square to it.
+  std::optional<double> direction_deg = {};
+  std::optional<double> angle_deg = {};  ///< roof:angle: slope of its faces
 };
 
 /// A face of a roof, or of the walls between the eaves and the roof.
@@ -41,7 +43,7 @@ struct OsmRoof {
 std::optional<OsmRoof> find_osm_roof(const OsmRoofTags& tags, const std::vector<OsmRing>& rings,
                                      std::string& why_flat);
 
-/// The height of a roof, metres, where no tag gives it.
+/// The height of a roof, metres, where no tag gives it: by roof:angle where its faces have one slope.
 double usual_osm_roof_m(const OsmRoof& roof);
 
 /// The faces between the eaves and the top.

@@ -150,5 +150,23 @@ TEST(OsmRoofs, RidgesRunAlongTheLongerSideOrAcross) {
   EXPECT_NEAR(reach_m(true), 0.0, 1e-9);
 }
 
+TEST(OsmRoofs, RidgesAreSquareToTheDirectionOfTheRoof) {
+  for (const char* shape : {"gabled", "half-hipped", "gambrel", "round", "saltbox"})
+    for (const double direction_deg : {0.0, 80.0, 100.0, 180.0, 270.0}) {
+      const auto roof = find_osm_roof({.shape = shape, .direction_deg = direction_deg}, {rectangle});
+      ASSERT_TRUE(roof) << shape;
+      dvec2 low(1e9), high(-1e9);  // of the ridge
+      for (const OsmRoofFace& face : osm_roof_faces(*roof, 6.0, 9.0))
+        for (const dvec3& point : face.points)
+          if (point.z > 8.99) low = glm::min(low, dvec2(point)), high = glm::max(high, dvec2(point));
+      const bool runs_north = direction_deg == 80.0 || direction_deg == 100.0 || direction_deg == 270.0;
+      EXPECT_NEAR(runs_north ? high.x - low.x : high.y - low.y, 0.0, 1e-6) << shape << " " << direction_deg;
+      EXPECT_GT(runs_north ? high.y - low.y : high.x - low.x, 1.5) << shape << " " << direction_deg;
+      if (shape == std::string_view("saltbox") && direction_deg == 180.0) {
+        EXPECT_GT(low.y, 5.0) << "the long slope is the main face, and looks south";
+      }
+    }
+}
+
 }  // namespace
 }  // namespace parvis::scene

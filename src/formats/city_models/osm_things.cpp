@@ -1,12 +1,12 @@
 #include "formats/city_models/osm_things.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
 
 #include "formats/city_models/osm_land.h"
+#include "formats/city_models/osm_measures.h"
 #include "formats/city_models/osm_segments.h"
 #include "formats/city_models/osm_shapes.h"
 
@@ -26,12 +26,7 @@ constexpr double beside_track_m = 0.6;
 constexpr double below_road_m = 0.02;   // carriageways lie on the deck
 constexpr double embankment_run = 1.5;  // per metre of height
 
-double metres_or(const OsmTags& tags, const char* key, double otherwise, double max_m) {
-  const std::string& text = tag(tags, key);
-  double given = 0.0;
-  std::from_chars(text.data(), text.data() + text.size(), given);
-  return given > 0.1 && given < max_m ? given : otherwise;
-}
+constexpr double thinnest_m = 0.1;  // of what tags give a height or width
 
 LineLook coloured(const char* type, glm::vec3 srgb, CityAssembly& city) {
   CityMaterial material;
@@ -106,6 +101,30 @@ class RoadPoints {
 /// The same for the same tree: 7 to 11 m.
 double usual_tree_m(OsmId id) { return 7.0 + 0.5 * double(std::uint64_t(id) * 2654435761u % 9); }
 
+/// What is painted where people cross: pieces side by side across the carriageway, in one row or two.
+struct CrossingPaint {
+  double piece_m, gap_m;  ///< across the road; no gap: one line from kerb to kerb
+  double length_m;        ///< along the road
+  double apart_m;         ///< of each of two rows from the middle; 0: one row
+};
+
+/// Nothing for what is no crossing or has no paint. crossing:markings says which; stripes stand where a
+/// crossing is marked and nothing says how. Signals in most towns stand beside stripes or lines.
+std::optional<CrossingPaint> paint_of(const OsmTags& tags) {
+  constexpr CrossingPaint stripes{0.5, 0.5, 3.0, 0.0}, lines{1.0, 0.0, 0.15, 1.5},
+      dashes{0.5, 0.5, 0.15, 1.5}, dots{0.2, 0.4, 0.2, 1.5};
+  if (tag(tags, "highway") != "crossing") return std::nullopt;
+  const std::string &kind = tag(tags, "crossing"), &markings = tag(tags, "crossing:markings");
+  if (markings == "no" || markings == "surface") return std::nullopt;
+  if (markings.starts_with("lines")) return lines;
+  if (markings.starts_with("dashes")) return dashes;
+  if (markings.starts_with("dots")) return dots;
+  const bool is_marked = kind == "zebra" || kind == "marked" || kind == "uncontrolled" ||
+                         kind == "traffic_signals" || tag(tags, "crossing_ref") == "zebra" ||
+                         !markings.empty();
+  return is_marked ? std::optional(stripes) : std::nullopt;
+}
+
 bool is_row(const OsmWay& way) { return tag(way.tags, "natural") == "tree_row"; }
 
 /// Between the trees of rows: farther than usual where there would be too many.
@@ -136,7 +155,8 @@ void add_row(const OsmWay& row, double step_m, const OsmPlaces& place, const Gro
     while (at_m <= length_m) {
       const dvec2 foot = glm::mix(*a, *b, length_m > 0.0 ? at_m / length_m : 0.0);
       add_tree({foot, ground ? ground(foot) : 0.0},
-               metres_or(row.tags, "height", usual_tree_m(row.id + ++count), 60.0), row.tags, city);
+               metres_within(row.tags, "height", thinnest_m, 60.0, usual_tree_m(row.id + ++count)), row.tags,
+               city);
       at_m += step_m;
     }
     left_m = at_m - length_m;
@@ -275,7 +295,8 @@ void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, con
     if (tag(node.tags, "natural") == "tree")
       if (const auto foot = place(node.id); foot && !trenches.holds(*foot))
         add_tree({*foot, ground ? ground(*foot) : 0.0},
-                 metres_or(node.tags, "height", usual_tree_m(node.id), 60.0), node.tags, city);
+                 metres_within(node.tags, "height", thinnest_m, 60.0, usual_tree_m(node.id)), node.tags,
+                 city);
   struct Barrier {
     const char* kind;
     double height_m, width_m;
@@ -292,8 +313,8 @@ void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, con
       std::vector<dvec3> line;
       for (const OsmId node : way.nodes)
         if (const auto point = place(node)) line.emplace_back(*point, ground ? ground(*point) : 0.0);
-      const double height_m = metres_or(way.tags, "height", barrier.height_m, 30.0);
-      const double half_m = 0.5 * metres_or(way.tags, "width", barrier.width_m, 20.0);
+      const double height_m = metres_within(way.tags, "height", thinnest_m, 30.0, barrier.height_m);
+      const double half_m = 0.5 * metres_within(way.tags, "width", thinnest_m, 20.0, barrier.width_m);
       add_block(sides_of(line, -half_m, half_m, height_m), height_m, look, city);
     }
   }
@@ -356,15 +377,12 @@ void add_osm_bridges(const OsmFile& osm, const OsmRelief& relief, const GroundOn
 
 void add_osm_crossings(const OsmFile& osm, const OsmPlaces& place, const std::vector<Road>& roads,
                        const dvec3& origin, CityAssembly& city) {
-  constexpr double stripe_m = 0.5, length_m = 3.0, lift_m = 0.078, near_m = 0.6;
+  constexpr double lift_m = 0.078, near_m = 0.6;
   const LineLook paint = coloured("CityFurniture", {0.86f, 0.86f, 0.84f}, city);
   const RoadPoints points(roads);
   for (const OsmNode& node : osm.tagged_nodes) {
-    const std::string &kind = tag(node.tags, "crossing"), &markings = tag(node.tags, "crossing:markings");
-    const bool is_marked = kind == "zebra" || kind == "marked" || kind == "traffic_signals" ||
-                           says_yes(node.tags, "crossing:markings");
-    if (tag(node.tags, "highway") != "crossing" || !is_marked || markings == "no") continue;
-    const auto at = place(node.id);
+    const std::optional<CrossingPaint> marks = paint_of(node.tags);
+    const auto at = marks ? place(node.id) : std::nullopt;
     if (!at) continue;
     const auto point = points.near(*at - dvec2(origin), near_m);
     if (!point || roads[point->road].path.size() < 2) continue;
@@ -374,13 +392,20 @@ void add_osm_crossings(const OsmFile& osm, const OsmPlaces& place, const std::ve
     const dvec2 along = glm::normalize(dvec2(road.path[next] - road.path[next - 1]));
     const dvec2 aside(along.y, -along.x);
     const double half_m =
-        0.5 * double(road.lane_width_m) * double(road.lanes_each_way) * (road.is_one_way ? 1.0 : 2.0);
+        0.5 * double(road.lane_width_m) * double(road.lanes_each_way + road.lanes_against());
     const double z = origin.z + double(road.path[found].z) + lift_m;
-    for (double side = -half_m + 0.25; side + stripe_m < half_m; side += 2.0 * stripe_m) {
-      const dvec2 low = *at + aside * side - along * (0.5 * length_m);
-      add_polygon({dvec3(low, z), dvec3(low + aside * stripe_m, z),
-                   dvec3(low + aside * stripe_m + along * length_m, z), dvec3(low + along * length_m, z)},
-                  paint, city);
+    const double step_m = marks->piece_m + marks->gap_m;
+    const double piece_m = marks->gap_m > 0.0 ? marks->piece_m : 2.0 * half_m;
+    for (double side = -half_m + 0.5 * marks->gap_m; side + piece_m < half_m + 1e-6; side += step_m) {
+      for (const double middle_m : {-marks->apart_m, marks->apart_m}) {
+        const dvec2 low = *at + aside * side + along * (middle_m - 0.5 * marks->length_m);
+        add_polygon({dvec3(low, z), dvec3(low + aside * piece_m, z),
+                     dvec3(low + aside * piece_m + along * marks->length_m, z),
+                     dvec3(low + along * marks->length_m, z)},
+                    paint, city);
+        if (marks->apart_m == 0.0) break;  // one row
+      }
+      if (marks->gap_m == 0.0) break;
     }
   }
 }

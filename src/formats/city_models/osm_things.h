@@ -32,7 +32,8 @@ void add_osm_rails(const OsmFile& osm, const OsmRelief& relief, const GroundOnMa
 void add_osm_bridges(const OsmFile& osm, const OsmRelief& relief, const GroundOnMap& ground,
                      const std::function<double(const OsmWay&)>& half_width_m, CityAssembly& city);
 
-/// Adds the stripes of zebra crossings (nodes highway=crossing) where a road of `roads` leads over them.
+/// Adds what is painted on crossings (nodes highway=crossing) where a road of `roads` leads over them:
+/// stripes, or the lines, dashes or dots that crossing:markings names.
 void add_osm_crossings(const OsmFile& osm, const OsmPlaces& place, const std::vector<Road>& roads,
                        const glm::dvec3& origin, CityAssembly& city);
 

@@ -9,10 +9,11 @@
 namespace parvis::scene {
 namespace {
 
-constexpr int deepest = 500;  // elements in each other: a reader that recurses would run out of stack
+constexpr int deepest_element = 500;  // elements in each other: a reader that recurses would run out of stack
 
-struct Look {
+struct Watch {
   XML_Parser parser = nullptr;
+  const XmlElement& on_element;
   int depth = 0;
   std::string root, problem;
 
@@ -24,29 +25,30 @@ struct Look {
 };
 
 void on_doctype(void* user, const char*, const char*, const char*, int) {
-  static_cast<Look*>(user)->stop("a DOCTYPE is refused, for it may name external entities; remove it");
+  static_cast<Watch*>(user)->stop("a DOCTYPE is refused, for it may name external entities; remove it");
 }
 
 void on_start(void* user, const char* name, const char** attributes) {
-  Look& look = *static_cast<Look*>(user);
-  if (++look.depth > deepest)
-    look.stop(fmt::format("elements stand more than {} deep in each other", deepest));
+  Watch& look = *static_cast<Watch*>(user);
+  if (++look.depth > deepest_element)
+    look.stop(fmt::format("elements stand more than {} deep in each other", deepest_element));
+  if (look.on_element) look.on_element(name, attributes);
   if (!look.root.empty()) return;
   look.root = name;
   for (; *attributes; attributes += 2)
     if (std::string(attributes[0]).starts_with("xmlns")) look.root += std::string(" ") + attributes[1];
 }
 
-void on_end(void* user, const char*) { --static_cast<Look*>(user)->depth; }
+void on_end(void* user, const char*) { --static_cast<Watch*>(user)->depth; }
 
 }  // namespace
 
-Result<XmlText> read_xml(const std::filesystem::path& file) {
+Result<XmlText> read_xml(const std::filesystem::path& file, const XmlElement& on_element) {
   Result<std::string> bytes = formats::read_unpacked(file);
   if (!bytes) return bytes.errors();
   const std::unique_ptr<std::remove_pointer_t<XML_Parser>, void (*)(XML_Parser)> parser(
       XML_ParserCreate(nullptr), XML_ParserFree);
-  Look look{parser.get(), 0, {}, {}};
+  Watch look{parser.get(), on_element, 0, {}, {}};
   XML_SetUserData(parser.get(), &look);
   XML_SetStartDoctypeDeclHandler(parser.get(), on_doctype);
   XML_SetElementHandler(parser.get(), on_start, on_end);

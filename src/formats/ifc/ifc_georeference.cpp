@@ -1,8 +1,11 @@
 #include "formats/ifc/ifc_georeference.h"
 
+#include <fmt/format.h>
 #include <ifcpp/IFC4/include/IfcCompoundPlaneAngleMeasure.h>
 #include <ifcpp/IFC4/include/IfcConversionBasedUnit.h>
 #include <ifcpp/IFC4/include/IfcCoordinateReferenceSystem.h>
+#include <ifcpp/IFC4/include/IfcDirection.h>
+#include <ifcpp/IFC4/include/IfcGeometricRepresentationContext.h>
 #include <ifcpp/IFC4/include/IfcLabel.h>
 #include <ifcpp/IFC4/include/IfcLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcMapConversion.h>
@@ -19,6 +22,10 @@
 #include <array>
 #include <cmath>
 #include <cwctype>
+
+#include "formats/ifc/ifc_text.h"
+#include "formats/terrain/map_projection.h"
+#include "formats/terrain/map_system.h"
 
 namespace parvis::scene {
 namespace {
@@ -70,6 +77,9 @@ void place_on_map(const IfcMapConversion& conversion, double project_unit_m, Ifc
   const glm::dvec2 axis(value_of(conversion.m_XAxisAbscissa, 1.0), value_of(conversion.m_XAxisOrdinate, 0.0));
   if (!(reach * unit_m < farthest_m) || !(std::abs(given.z) * unit_m < farthest_m)) return;
   place.origin = unit_m * given;
+  if (conversion.m_TargetCRS && conversion.m_TargetCRS->m_Name)
+    if (const auto epsg = epsg_in(utf8(conversion.m_TargetCRS->m_Name->m_value)))
+      place.map = fmt::format("EPSG:{}", *epsg);
   // Not by glm::length, whose squares overflow for axes that are finite.
   const double length = std::hypot(axis.x, axis.y);
   if (length > 0.0 && std::isfinite(length)) place.x_axis = axis / length;
@@ -91,18 +101,55 @@ std::optional<glm::dvec2> place_of(const IfcSite& site) {
   return glm::dvec2(*east, *north);
 }
 
+/// Where the file's x axis lies on a map whose north is the direction `north` of the file.
+std::optional<glm::dvec2> x_axis_for(const IfcDirection& north) {
+  if (north.m_DirectionRatios.size() < 2) return std::nullopt;
+  const glm::dvec2 direction(value_of(north.m_DirectionRatios[0], 0.0),
+                             value_of(north.m_DirectionRatios[1], 0.0));
+  const double length = std::hypot(direction.x, direction.y);
+  if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
+  return glm::dvec2(direction.y, direction.x) / length;
+}
+
 }  // namespace
 
 IfcGeoreference georeference_of(BuildingModel& building) {
   IfcGeoreference place;
   const double project_unit_m = building.getUnitConverter()->getLengthInMeterFactor();
   bool has_map = false;
+  std::optional<glm::dvec2> north_up;
   for (const auto& [id, entity] : building.getMapIfcEntities()) {
     const auto* conversion = dynamic_cast<const IfcMapConversion*>(entity.get());
     if (conversion && !has_map) place_on_map(*conversion, project_unit_m, place), has_map = true;
+    const auto* context = dynamic_cast<const IfcGeometricRepresentationContext*>(entity.get());
+    if (context && context->m_TrueNorth && !north_up) north_up = x_axis_for(*context->m_TrueNorth);
     const auto* site = dynamic_cast<const IfcSite*>(entity.get());
     if (site && !place.place_deg) place.place_deg = place_of(*site);
   }
+  if (!has_map && north_up) place.x_axis = *north_up;
+  const std::optional<MapProjection> map = MapProjection::of(place.map);
+  const glm::dvec2 deg = map ? map->degrees(place.origin) : glm::dvec2(std::nan(""));
+  if (std::isfinite(deg.x + deg.y)) {
+    place.true_north_deg = map->true_north_deg(deg);
+    if (!place.place_deg) place.place_deg = deg;
+  } else {
+    place.map.clear();
+  }
+  return place;
+}
+
+IfcGeoreference on_map(IfcGeoreference place, const std::string& map) {
+  if (place.map.empty() || map.empty() || map == place.map) return place;
+  const std::optional<MapProjection> own = MapProjection::of(place.map), other = MapProjection::of(map);
+  if (!own || !other) return place;
+  const glm::dvec2 deg = own->degrees(place.origin), there = (*other)(deg);
+  if (!std::isfinite(there.x + there.y)) return place;
+  const double true_north_deg = other->true_north_deg(deg),
+               turn = glm::radians(true_north_deg - place.true_north_deg);  // clockwise
+  const glm::dvec2 x = place.x_axis;
+  place.x_axis = {x.x * std::cos(turn) + x.y * std::sin(turn), x.y * std::cos(turn) - x.x * std::sin(turn)};
+  place.origin = glm::dvec3(there, place.origin.z);
+  place.map = map, place.true_north_deg = true_north_deg;
   return place;
 }
 

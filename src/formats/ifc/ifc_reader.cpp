@@ -179,7 +179,7 @@ std::vector<Texture> textures_of(const std::vector<IfcPicture>& pictures, const 
 }  // namespace
 
 Result<Model> read_ifc(const std::filesystem::path& file, Errors& warnings,
-                       std::optional<glm::dvec2>* place_deg) {
+                       std::optional<glm::dvec2>* place_deg, const std::string& map) {
   Result<std::string> text = formats::read_unpacked(file);
   if (!text) return text.errors();
   Result<IfcBodies> bodies = ifc_bodies(*std::move(text), file.string(), warnings);
@@ -189,11 +189,13 @@ Result<Model> read_ifc(const std::filesystem::path& file, Errors& warnings,
         FileLocation{file.string(), 0, 0},
         "no object has a body: export the building with its 3D geometry (representation \"Body\")");
   IfcAssembly assembly(formats::model_stem(file));
+  bodies->place = on_map(bodies->place, map);
   for (IfcShape& shape : bodies->shapes) turn_to_map(bodies->place.x_axis, shape);
   assembly.set_origin(origin_of(bodies->shapes));
   for (const IfcShape& shape : bodies->shapes) assembly.add(shape);
   Model model = assembly.take();
   model.origin += bodies->place.origin;
+  model.map = bodies->place.map, model.true_north_deg = bodies->place.true_north_deg;
   if (place_deg) *place_deg = bodies->place.place_deg;
   model.textures = textures_of(bodies->pictures, file, warnings);
   for (const Part& part : model.parts)

@@ -19,6 +19,6 @@ namespace parvis::scene {
 /// whose shape cannot be built. Errors: another schema, a file without bodies. IFC++ may crash on damaged
 /// files: to be called through formats::isolated.
 Result<Model> read_ifc(const std::filesystem::path& file, Errors& warnings,
-                       std::optional<glm::dvec2>* place_deg = nullptr);
+                       std::optional<glm::dvec2>* place_deg = nullptr, const std::string& map = {});
 
 }  // namespace parvis::scene

@@ -10,6 +10,7 @@
 #include <ifcpp/IFC4/include/IfcIndexedColourMap.h>
 #include <ifcpp/IFC4/include/IfcLabel.h>
 #include <ifcpp/IFC4/include/IfcLengthMeasure.h>
+#include <ifcpp/IFC4/include/IfcMappedItem.h>
 #include <ifcpp/IFC4/include/IfcNormalisedRatioMeasure.h>
 #include <ifcpp/IFC4/include/IfcPile.h>
 #include <ifcpp/IFC4/include/IfcSpace.h>
@@ -20,6 +21,7 @@
 #include <ifcpp/model/BuildingModel.h>
 #include <ifcpp/reader/ReaderSTEP.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iostream>
@@ -27,7 +29,9 @@
 #include <set>
 
 #include "formats/ifc/ifc_4x3.h"
+#include "formats/ifc/ifc_curves.h"
 #include "formats/ifc/ifc_styles.h"
+#include "formats/ifc/ifc_sweeps.h"
 #include "formats/ifc/ifc_text.h"
 
 namespace parvis::scene {
@@ -172,6 +176,13 @@ void add_triangles(const carve::mesh::MeshSet<3>& body, carve::math::Matrix worl
     }
 }
 
+/// An object as messages name it: IfcWall "entrance wall" (#48).
+std::string described(const IfcObjectDefinition& object) {
+  const std::string name = name_of(object);
+  return fmt::format("{}{} (#{})", object.className(), name.empty() ? "" : fmt::format(" \"{}\"", name),
+                     object.m_entity_id);
+}
+
 /// Collects what a file complains about, up to a number of lines.
 class Complaints {
  public:
@@ -186,12 +197,78 @@ class Complaints {
   void add(const std::string& message) {
     if (++count_ <= max_warnings) warnings_.push_back({message, {file_, 0, 0}});
   }
+  /// About an entity, which `name_entities` names by the object that it belongs to.
+  void add(const BuildingEntity& entity, const std::string& message) {
+    if (!seen_.emplace(entity.m_entity_id, message).second) return;
+    if (count_ < max_warnings) about_.push_back({warnings_.size(), &entity});
+    add(message);
+  }
+  void name_entities(const BuildingModel& building) {
+    std::map<const BuildingEntity*, std::string> owners;
+    for (const auto& [index, entity] : about_)
+      if (const auto* object = dynamic_cast<const IfcObjectDefinition*>(entity))
+        owners[entity] = described(*object);
+      else
+        owners[entity] = "";
+    for (const auto& [id, entity] : building.getMapIfcEntities()) {
+      const auto* product = dynamic_cast<const IfcProduct*>(entity.get());
+      const bool is_open = std::ranges::any_of(owners, [](const auto& each) { return each.second.empty(); });
+      if (!is_open) break;
+      if (!product || !product->m_Representation) continue;
+      std::map<BuildingEntity*, std::shared_ptr<BuildingEntity>> own;
+      BuildingModel::collectDependentEntities(product->m_Representation, own);
+      for (auto& [part, owner] : owners)
+        if (owner.empty() && own.contains(const_cast<BuildingEntity*>(part))) owner = described(*product);
+    }
+    for (const auto& [index, entity] : about_) {
+      const std::string& owner = owners[entity];
+      const bool is_itself = dynamic_cast<const IfcObjectDefinition*>(entity);
+      const std::string part =
+          is_itself ? "" : fmt::format("{} #{}: ", entity->className(), entity->m_entity_id);
+      std::string& message = warnings_[index].message;
+      message = fmt::format("{}{}{}", owner.empty() ? "" : owner + ": ", part, message);
+    }
+    about_.clear();
+  }
 
  private:
   std::string file_;
   Errors& warnings_;
   std::size_t count_ = 0;
+  std::set<std::pair<int, std::string>> seen_;
+  std::vector<std::pair<std::size_t, const BuildingEntity*>> about_;  ///< by the index of the warning
 };
+
+/// Whether IFC++ has made anything of an item: surfaces, or lines, which are not shown.
+bool has_geometry(const ItemShapeData& item) {
+  return !item.m_meshsets.empty() || !item.m_meshsets_open.empty() || !item.m_polylines.empty();
+}
+
+/// Reports the items of an object's bodies that IFC++ has made nothing of.
+void report_lost_items(const ProductShapeData& product, const IfcObjectDefinition& object,
+                       Complaints& complaints) {
+  for (const auto& representation : product.m_vec_representations) {
+    const auto given = representation ? representation->m_ifc_representation.lock() : nullptr;
+    if (!given || !is_body(*representation)) continue;
+    std::vector<const BuildingEntity*> items;  // those that are not mapped, as IFC++ counts them
+    for (const auto& item : given->m_Items)
+      if (!dynamic_cast<const IfcMappedItem*>(item.get())) items.push_back(item.get());
+    const bool are_named = items.size() == representation->m_vec_item_data.size();
+    for (std::size_t i = 0; i < representation->m_vec_item_data.size(); ++i) {
+      const auto& made = representation->m_vec_item_data[i];
+      if (made && has_geometry(*made)) continue;
+      const BuildingEntity& about =
+          are_named && items[i] ? *items[i] : static_cast<const BuildingEntity&>(object);
+      complaints.add(about,
+                     "IFC++ makes no surface of it, and it is left out; export it as a body of faces "
+                     "(IfcTriangulatedFaceSet, IfcFacetedBrep)");
+    }
+    if (representation->m_vec_item_data.empty() && !given->m_Items.empty())
+      complaints.add(object,
+                     "IFC++ makes no surface of its body, and it is left out; export it as a body of faces "
+                     "(IfcTriangulatedFaceSet, IfcFacetedBrep)");
+  }
+}
 
 void add_bodies(IfcShape shape, std::vector<std::shared_ptr<carve::mesh::MeshSet<3>>>& bodies, bool is_closed,
                 const carve::math::Matrix& world_from_body, IfcTextures& textures,
@@ -268,6 +345,7 @@ Result<IfcBodies> ifc_bodies(std::string text, const std::string& name, Errors& 
                       left_out));
     text = ifc_4_of_4x3(std::move(text));
   }
+  text = with_plain_curves(std::move(text));
   IfcBodies bodies;
   try {
     auto building = std::make_shared<BuildingModel>();
@@ -275,11 +353,17 @@ Result<IfcBodies> ifc_bodies(std::string text, const std::string& name, Errors& 
     converter.setMessageCallBack(  // IFC++ hands it over by value. NOLINTNEXTLINE(performance-*)
         &complaints, [](void* list, std::shared_ptr<StatusCallback::Message> message) {
           if (!message || message->m_message_type != StatusCallback::MESSAGE_TYPE_ERROR) return;
-          const std::string where =
-              message->m_entity ? fmt::format("#{}: ", message->m_entity->m_entity_id) : std::string();
-          static_cast<Complaints*>(list)->add(where + utf8(message->m_message_text));
+          const std::string words = utf8(message->m_message_text);
+          if (message->m_entity)
+            static_cast<Complaints*>(list)->add(*message->m_entity, words);
+          else
+            static_cast<Complaints*>(list)->add(words);
         });
     ReaderSTEP().loadModelFromString(text, building);
+    replace_sweeps(*building, *converter.getRepresentationConverter(),
+                   [&](int id, const std::string& problem) {
+                     complaints.add(*building->getMapIfcEntities().at(id), problem);
+                   });
     converter.convertGeometry();
     warn_of_coloured_faces(*building, complaints);
     IfcTextures textures(*building, [&](const std::string& message) { complaints.add(message); });
@@ -287,8 +371,11 @@ Result<IfcBodies> ifc_bodies(std::string text, const std::string& name, Errors& 
     for (const auto& [id, product] : converter.getShapeInputData()) {
       const std::shared_ptr<IfcObjectDefinition> object =
           product ? product->m_ifc_object_definition.lock() : nullptr;
-      if (object && is_built(*object)) add_product(*product, object, cellars, textures, bodies.shapes);
+      if (!object || !is_built(*object)) continue;
+      add_product(*product, object, cellars, textures, bodies.shapes);
+      report_lost_items(*product, *object, complaints);
     }
+    complaints.name_entities(*building);
     bodies.pictures = textures.pictures();
     bodies.place = georeference_of(*building);
   } catch (const std::exception& failure) {

@@ -9,7 +9,7 @@ namespace {
 
 Result<scene::Model> read(const std::filesystem::path& file, const formats::ModelReading& reading,
                           Errors& warnings) {
-  return scene::read_ifc(file, warnings, reading.place_deg);
+  return scene::read_ifc(file, warnings, reading.place_deg, reading.map);
 }
 
 /// ISO 10303-21, the text form of STEP.

@@ -73,9 +73,10 @@ std::string reading_key(const Node& node) {
   return node.file("file").string() + "?up=" + node.text("up") + level + cell + ground;
 }
 
-/// The ground of ground=, which knows where a place lies beyond it. Empty, with the errors in `builder`,
-/// where there is none.
-GroundOnMap ground_below(const Node& node, SceneBuilder& builder, std::size_t& places_beyond) {
+/// The ground of ground=, and the map that it lies on; it counts places beyond it. Empty, with the errors in
+/// `builder`, where there is none.
+GroundOnMap ground_below(const Node& node, SceneBuilder& builder, std::string& map,
+                         std::size_t& places_beyond) {
   const std::string name = node.text("ground");
   const std::string extension = formats::model_extension(node.file("file"));
   if (extension != ".osm" && extension != ".pbf") {
@@ -89,6 +90,7 @@ GroundOnMap ground_below(const Node& node, SceneBuilder& builder, std::size_t& p
                           names_that_exist(name, scene::object_names(builder.scene))));
     return {};
   }
+  map = object->model->map;
   const auto heights = std::make_shared<const TerrainHeights>(*object->model);
   const std::optional<double> lowest_m = heights->lowest();
   if (!lowest_m) {
@@ -103,11 +105,15 @@ GroundOnMap ground_below(const Node& node, SceneBuilder& builder, std::size_t& p
 }
 
 /// Georeferenced models stand as their coordinates say: the first one's origin is the scene's, and the others
-/// stand about it, so that tiles of one city meet.
+/// stand about it, so that tiles of one city meet. Its map is the scene's: files that know where they are on
+/// the earth are laid on it.
 glm::vec3 offset_in_scene(const Model& model, const Node& node, SceneBuilder& builder) {
   constexpr double far_m = 50'000.0;  // floats end at millimetres there, and no city is so large
   if (model.origin == glm::dvec3(0.0)) return glm::vec3(0.0f);
-  if (builder.scene.origin == glm::dvec3(0.0)) builder.scene.origin = model.origin;
+  Scene& scene = builder.scene;
+  if (scene.origin == glm::dvec3(0.0)) scene.origin = model.origin;
+  if (scene.map.empty() && !model.map.empty())
+    scene.map = model.map, scene.true_north_deg = model.true_north_deg;
   const glm::dvec3 offset = model.origin - builder.scene.origin;
   if (glm::length(offset) < far_m) return glm::vec3(offset);
   builder.warn(error_at(node.where_of("file"),
@@ -125,11 +131,12 @@ std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& bui
   reading.up = node.text("up") == "y" ? UpAxis::y : node.text("up") == "z" ? UpAxis::z : UpAxis::file;
   if (node.gives("lod")) reading.max_detail = node.number("lod");
   if (node.gives("cell")) reading.cell_m = node.number("cell");
+  reading.map = builder.scene.map;
   return builder.shared_model(reading_key(node), [&]() -> std::shared_ptr<const Model> {
     Errors warnings;
     std::size_t places_beyond = 0;
     if (node.gives("ground")) {
-      reading.ground = ground_below(node, builder, places_beyond);
+      reading.ground = ground_below(node, builder, reading.map, places_beyond);
       if (!reading.ground) return nullptr;
     }
     Result<Model> model = readers.read(file, reading, warnings);

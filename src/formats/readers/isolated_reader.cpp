@@ -93,6 +93,7 @@ Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput
   reading.up = order.up;
   if (order.has_detail) reading.max_detail = order.max_detail;
   if (order.has_cell) reading.cell_m = order.cell_m;
+  reading.map = take_text(taker);
   const fs::path file = take_text(taker);
   std::optional<glm::dvec2> place_deg;
   reading.place_deg = &place_deg;
@@ -119,7 +120,7 @@ Result<scene::Model> read_isolated(IsolatedWork work, const fs::path& file, cons
   std::string input;
   append_value(input, Order{reading.up, reading.max_detail.has_value(), reading.cell_m.has_value(),
                             reading.max_detail.value_or(0.0), reading.cell_m.value_or(0.0)});
-  append_text(input, fs::absolute(file).string());
+  append_text(input, reading.map), append_text(input, fs::absolute(file).string());
   const Result<IsolatedBytes> made = run_isolated(work, input, subject, limits_for(file));
   if (!made) return made.errors();
   const std::string_view bytes(reinterpret_cast<const char*>(made->bytes().data()), made->bytes().size());

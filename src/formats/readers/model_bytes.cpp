@@ -175,14 +175,14 @@ void transfer_animation(Io& io, T& animation) {
 
 template <class Io, class T>
 void transfer_road(Io& io, T& road) {
-  io.array(road.path), io.value(road.lanes_each_way), io.value(road.is_one_way), io.value(road.lane_width_m);
-  io.value(road.speed_limit), io.array(road.name);
+  io.array(road.path), io.value(road.lanes_each_way), io.value(road.lanes_back), io.value(road.is_one_way);
+  io.value(road.lane_width_m), io.value(road.speed_limit), io.array(road.name);
   io.array(road.where.file), io.value(road.where.line), io.value(road.where.column);
 }
 
 template <class Io, class T>
 void transfer_model(Io& io, T& model) {
-  io.array(model.name), io.value(model.origin);
+  io.array(model.name), io.value(model.origin), io.array(model.map), io.value(model.true_north_deg);
   io.list(model.textures, [&](auto& texture) { transfer_texture(io, texture); });
   io.list(model.materials, [&](auto& material) { transfer_material(io, material); });
   io.list(model.nodes, [&](auto& node) { transfer_node(io, node); });

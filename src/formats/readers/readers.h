@@ -25,6 +25,8 @@ struct ModelReading {
   std::optional<double> max_detail = {};  ///< of city models: the level of detail; the highest there is
   std::optional<double> cell_m = {};      ///< of grids of heights that have no place on the earth
   scene::GroundOnMap ground = {};         ///< on which a file without heights (OpenStreetMap) stands
+  /// On which a file with a place on the earth is laid, as Model::map; empty: on its own.
+  std::string map = {};
   /// Filled with the place on the earth (degrees: east, north) by readers whose file says it; may be null.
   std::optional<glm::dvec2>* place_deg = nullptr;
 };

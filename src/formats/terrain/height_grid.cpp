@@ -8,18 +8,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string_view>
 
-#include "formats/terrain/utm.h"
+#include "formats/terrain/map_projection.h"
 
 namespace parvis::scene {
 namespace {
 
 constexpr int max_across = 1000;        // two million triangles
 constexpr double highest_m = 20'000.0;  // what is beyond is no height on the earth
-constexpr double farthest_deg = 84.0;   // as far as UTM goes
 constexpr double max_block_mb = 256.0;
 
 /// What GDAL says goes into our errors, not to the terminal.
@@ -39,7 +40,8 @@ Dataset open(const std::filesystem::path& file) {
   static const bool is_ready = (GDALAllRegister(), true);
   static_cast<void>(is_ready);
   const char* const formats[]{"GTiff", nullptr};
-  const char* const options[]{"GEOREF_SOURCES=INTERNAL", nullptr};
+  // Without overviews, whose samples may be means, or lie elsewhere.
+  const char* const options[]{"GEOREF_SOURCES=INTERNAL", "OVERVIEW_LEVEL=NONE", nullptr};
   const char* const siblings[]{nullptr};
   return {GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, formats, options, siblings),
           [](GDALDatasetH opened) {
@@ -70,12 +72,28 @@ struct Georeference {
   std::array<double, 6> transform;
   bool is_in_degrees = false;
   double unit_m = 1.0;
+  std::string system{};  ///< as map_projection.h reads it; empty: not known
 
   glm::dvec2 at(double column, double row) const {
     return {transform[0] + column * transform[1] + row * transform[2],
             transform[3] + column * transform[4] + row * transform[5]};
   }
 };
+
+/// By EPSG's number where it has one, else described.
+std::string name_of_system(OGRSpatialReferenceH map) {
+  for (const char* part : {"PROJCS", static_cast<const char*>(nullptr)}) {
+    const char* const authority = OSRGetAuthorityName(map, part);
+    const char* const code = OSRGetAuthorityCode(map, part);
+    if (authority && code && std::string_view(authority) == "EPSG") return fmt::format("EPSG:{}", code);
+  }
+  char* text = nullptr;
+  const char* const options[]{"FORMAT=WKT2_2018", nullptr};
+  std::string described;
+  if (OSRExportToWktEx(map, &text, options) == OGRERR_NONE && text) described = text;
+  CPLFree(text);
+  return described;
+}
 
 std::optional<Georeference> georeference_of(GDALDatasetH grid) {
   Georeference result;
@@ -85,54 +103,121 @@ std::optional<Georeference> georeference_of(GDALDatasetH grid) {
   if (const OGRSpatialReferenceH map = GDALGetSpatialRef(grid)) {
     result.is_in_degrees = OSRIsGeographic(map) != 0;
     if (!result.is_in_degrees) result.unit_m = OSRGetLinearUnits(map, nullptr);
+    if (!result.is_in_degrees && OSRIsProjected(map)) result.system = name_of_system(map);
   }
   return result;
 }
 
+/// Metres per unit of the heights: as the band names it, else as the vertical system does.
+double height_unit_m(GDALDatasetH grid, GDALRasterBandH band, const FileLocation& where, Errors& warnings) {
+  std::string name = GDALGetRasterUnitType(band);
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  constexpr double foot_m = 0.3048, us_survey_foot_m = 1200.0 / 3937.0;
+  const bool is_foot =
+      name == "ft" || name.find("foot") != std::string::npos || name.find("feet") != std::string::npos;
+  if (is_foot || name == "us-ft" || name == "ftus")
+    return name.find("us") != std::string::npos ? us_survey_foot_m : foot_m;
+  if (name == "cm" || name.starts_with("centimet")) return 0.01;
+  if (name == "mm" || name.starts_with("millimet")) return 0.001;
+  if (name == "dm" || name.starts_with("decimet")) return 0.1;
+  if (name == "km" || name.starts_with("kilomet")) return 1000.0;
+  if (name == "m" || name.starts_with("met")) return 1.0;
+  if (!name.empty())
+    warnings.push_back({fmt::format("the unit of its heights, \"{}\", is not known; they are read as metres",
+                                    name.substr(0, 40)),
+                        where});
+  const OGRSpatialReferenceH map = GDALGetSpatialRef(grid);
+  return name.empty() && map && OSRIsCompound(map) ? OSRGetTargetLinearUnits(map, "VERT_CS", nullptr) : 1.0;
+}
+
+/// Columns or rows of a grid that are taken: `count` of `all`, each where it lies.
+std::vector<int> taken(int count, int all) {
+  std::vector<int> places(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) places[std::size_t(i)] = int((i + 0.5) * all / count);
+  return places;
+}
+
 /// Heights in metres, NaN where there is none; every step-th sample.
-bool read_heights(GDALRasterBandH band, int width, int height, HeightGrid& grid) {
+bool read_heights(GDALRasterBandH band, double unit_m, int width, int height, HeightGrid& grid) {
   std::vector<double> values(std::size_t(grid.columns) * std::size_t(grid.rows));
-  if (GDALRasterIO(band, GF_Read, 0, 0, width, height, values.data(), grid.columns, grid.rows, GDT_Float64, 0,
-                   0) != CE_None)
+  std::vector<std::uint8_t> mask(values.size(), 255);
+  const auto read = [&](GDALRasterBandH from, void* to, GDALDataType type) {
+    return GDALRasterIO(from, GF_Read, 0, 0, width, height, to, grid.columns, grid.rows, type, 0, 0) ==
+           CE_None;
+  };
+  if (!read(band, values.data(), GDT_Float64)) return false;
+  if ((GDALGetMaskFlags(band) & (GMF_ALL_VALID | GMF_NODATA)) == 0 &&
+      !read(GDALGetMaskBand(band), mask.data(), GDT_Byte))
     return false;
   int has_nothing = 0;
   const double nothing = GDALGetRasterNoDataValue(band, &has_nothing);
   const double scale = GDALGetRasterScale(band, nullptr), offset = GDALGetRasterOffset(band, nullptr);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double metres = offset + scale * values[i];
-    const bool is_height = !(has_nothing && values[i] == nothing) && std::abs(metres) < highest_m;
+    const double metres = unit_m * (offset + scale * values[i]);
+    const bool is_height =
+        mask[i] != 0 && !(has_nothing && values[i] == nothing) && std::abs(metres) < highest_m;
     grid.points[i].z = is_height ? metres : std::numeric_limits<double>::quiet_NaN();
   }
   return true;
 }
 
-Status place(const Georeference& map, int width, int height, HeightGrid& grid) {
-  const glm::dvec2 middle = map.at(width / 2.0, height / 2.0);
-  if (map.is_in_degrees && !(std::abs(middle.x) <= 180.0 && std::abs(middle.y) < farthest_deg))
+/// The system that a grid is laid on, and, of one that is not in degrees, its own where that is another.
+struct Target {
+  std::optional<MapProjection> map, own;
+};
+
+Target target_of(const Georeference& given, glm::dvec2 middle, const std::string& map) {
+  Target target;
+  if (!given.is_in_degrees) target.own = MapProjection::of(given.system);
+  const bool is_known = given.is_in_degrees || target.own;
+  if (is_known && !map.empty() && map != given.system) target.map = MapProjection::of(map);
+  const glm::dvec2 deg = given.is_in_degrees ? middle
+                         : target.own        ? target.own->degrees(given.unit_m * middle)
+                                             : middle;
+  if (target.map && !std::isfinite((*target.map)(deg).x)) target.map.reset();
+  if (!target.map && given.is_in_degrees) target.map = MapProjection::utm(middle);
+  return target;
+}
+
+Status place(const Georeference& given, int width, int height, const std::string& map, HeightGrid& grid) {
+  const glm::dvec2 middle = given.at(width / 2.0, height / 2.0);
+  if (given.is_in_degrees && !(std::abs(middle.x) <= 2.0 * 180.0 && std::abs(middle.y) < max_latitude_deg))
     return error("its middle lies at {} degrees east, {} north, which is nowhere on the earth's maps",
                  middle.x, middle.y);
-  const Utm utm(map.is_in_degrees ? middle : glm::dvec2(0.0));
+  const Target target = target_of(given, middle, map);
+  const auto on_map = [&](glm::dvec2 in_file) {
+    if (given.is_in_degrees) return (*target.map)(in_file);
+    const glm::dvec2 metres = given.unit_m * in_file;
+    return target.map ? (*target.map)(target.own->degrees(metres)) : metres;
+  };
+  const std::vector<int> columns = taken(grid.columns, width), rows = taken(grid.rows, height);
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
-      const glm::dvec2 on_map =
-          map.at((column + 0.5) * width / grid.columns, (row + 0.5) * height / grid.rows);
       glm::dvec3& point = grid.points[std::size_t(row) * std::size_t(grid.columns) + std::size_t(column)];
-      const glm::dvec2 metres = map.is_in_degrees ? utm(on_map) : on_map * map.unit_m;
+      const glm::dvec2 metres =
+          on_map(given.at(columns[std::size_t(column)] + 0.5, rows[std::size_t(row)] + 0.5));
       point = glm::dvec3(
           metres, std::isfinite(metres.x + metres.y) ? point.z : std::numeric_limits<double>::quiet_NaN());
     }
+  const std::optional<MapProjection>& shown = target.map ? target.map : target.own;
+  if (!shown) return Done{};
+  const glm::dvec2 deg = given.is_in_degrees ? middle : target.own->degrees(given.unit_m * middle);
+  if (!std::isfinite(deg.x + deg.y)) return Done{};
+  grid.map = shown->system();
+  grid.true_north_deg = shown->true_north_deg(deg);
+  grid.place_deg = glm::dvec2(deg.x - 360.0 * std::floor((deg.x + 180.0) / 360.0), deg.y);
   return Done{};
 }
 
 /// North up, about the middle.
 Georeference about_the_middle(int width, int height, double cell_m) {
-  return {{-cell_m * width / 2.0, cell_m, 0.0, cell_m * height / 2.0, 0.0, -cell_m}};
+  return {.transform = {-cell_m * width / 2.0, cell_m, 0.0, cell_m * height / 2.0, 0.0, -cell_m}};
 }
 
 }  // namespace
 
 Result<HeightGrid> read_height_grid(const std::filesystem::path& file, std::optional<double> cell_m,
-                                    Errors& warnings) {
+                                    Errors& warnings, const std::string& map) {
   const FileLocation where{file.string(), 0, 0};
   const QuietGdal quiet;
   if (const double block_mb = largest_block_mb(file); block_mb > max_block_mb)
@@ -160,10 +245,11 @@ Result<HeightGrid> read_height_grid(const std::filesystem::path& file, std::opti
     warnings.push_back(
         {fmt::format("of {} x {} samples every {}. is taken, as many as can be shown", width, height, step),
          where});
-  if (!read_heights(GDALGetRasterBand(opened.get(), 1), width, height, grid))
+  const GDALRasterBandH band = GDALGetRasterBand(opened.get(), 1);
+  if (!read_heights(band, height_unit_m(opened.get(), band, where, warnings), width, height, grid))
     return error_at(where, "its samples cannot be read ({})", CPLGetLastErrorMsg());
-  const Georeference map = given ? *given : about_the_middle(width, height, *cell_m);
-  if (const Status placed = place(map, width, height, grid); !placed)
+  const Georeference own = given ? *given : about_the_middle(width, height, *cell_m);
+  if (const Status placed = place(own, width, height, map, grid); !placed)
     return Error{placed.errors().front().message, where};
   return grid;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/result.h"
@@ -13,18 +14,24 @@ namespace parvis::scene {
 /// Samples row by row, the first row in the north.
 struct HeightGrid {
   int columns = 0, rows = 0;
-  std::vector<glm::dvec3> points;  ///< metres on the map, or about the grid's middle; z is NaN in holes
-  bool has_place = false;          ///< on the map
+  std::vector<glm::dvec3> points;       ///< metres on the map, or about the grid's middle; z is NaN in holes
+  bool has_place = false;               ///< on the map
+  std::string map;                      ///< as Model::map
+  double true_north_deg = 0.0;          ///< as Model::true_north_deg, in the middle
+  std::optional<glm::dvec2> place_deg;  ///< of the middle: degrees, east and north
 
   const glm::dvec3& at(int column, int row) const {
     return points[std::size_t(row) * std::size_t(columns) + std::size_t(column)];
   }
 };
 
-/// Degrees become metres of the UTM zone. Of a grid of more than 1000 samples across every n-th is taken,
-/// which `warnings` tell. A grid without a place on the earth needs `cell_m`, the metres between its samples.
-/// Errors: no GeoTIFF, no place and no `cell_m`, no height at all.
+/// All is laid on `map` (map_projection.h); without one, or where the file's own system is not known, it
+/// stays on its own, and degrees become metres of the UTM zone. Heights are in the unit that the band names,
+/// else in that of the vertical system. Samples that a mask, alpha or a value leaves out are holes. Of a grid
+/// of more than 1000 samples across every n-th is taken, at its own place, which `warnings` report. A grid
+/// without a place on the earth needs `cell_m`, the metres between its samples. Errors: no GeoTIFF, no place
+/// and no `cell_m`, no height at all.
 Result<HeightGrid> read_height_grid(const std::filesystem::path& file, std::optional<double> cell_m,
-                                    Errors& warnings);
+                                    Errors& warnings, const std::string& map = {});
 
 }  // namespace parvis::scene

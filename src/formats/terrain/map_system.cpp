@@ -1,13 +1,13 @@
 #include "formats/terrain/map_system.h"
 
 #include <fmt/format.h>
-#include <proj.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <memory>
 #include <numbers>
+
+#include "formats/terrain/proj_objects.h"
 
 namespace parvis::scene {
 namespace {
@@ -15,26 +15,13 @@ namespace {
 constexpr std::size_t max_digits = 6;  // of EPSG's numbers
 constexpr double radians_per_degree = std::numbers::pi / 180.0;
 
-struct Destroy {
-  void operator()(PJ* object) const { proj_destroy(object); }
-  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
-};
-using Context = std::unique_ptr<PJ_CONTEXT, Destroy>;
-using Object = std::unique_ptr<PJ, Destroy>;
-
-Context quiet_context() {
-  Context context(proj_context_create());
-  proj_log_level(context.get(), PJ_LOG_NONE);  // numbers that nobody knows are for us to report
-  return context;
-}
-
 struct Axis {
   std::string direction;
   double unit = 1.0;  ///< in metres or radians
 };
 
 std::optional<Axis> axis_of(PJ_CONTEXT* context, const PJ* system, int index) {
-  const Object axes(proj_crs_get_coordinate_system(context, system));
+  const ProjObject axes(proj_crs_get_coordinate_system(context, system));
   if (!axes || index >= proj_cs_get_axis_count(context, axes.get())) return std::nullopt;
   const char* direction = nullptr;
   Axis axis;
@@ -46,19 +33,13 @@ std::optional<Axis> axis_of(PJ_CONTEXT* context, const PJ* system, int index) {
   return axis;
 }
 
-/// The system itself, or the first of those that it is made of.
-Object plan_of(PJ_CONTEXT* context, Object system) {
-  if (!system || proj_get_type(system.get()) != PJ_TYPE_COMPOUND_CRS) return system;
-  return Object(proj_crs_get_sub_crs(context, system.get(), 0));
-}
-
-Object system_of(PJ_CONTEXT* context, int epsg) {
-  return Object(proj_create_from_database(context, "EPSG", fmt::format("{}", epsg).c_str(), PJ_CATEGORY_CRS,
-                                          0, nullptr));
+ProjObject system_of(PJ_CONTEXT* context, int epsg) {
+  return ProjObject(proj_create_from_database(context, "EPSG", fmt::format("{}", epsg).c_str(),
+                                              PJ_CATEGORY_CRS, 0, nullptr));
 }
 
 std::optional<double> height_unit_m(PJ_CONTEXT* context, const PJ* system, const PJ* plan) {
-  const Object heights(proj_crs_get_sub_crs(context, system, 1));  // of a compound system
+  const ProjObject heights(proj_crs_get_sub_crs(context, system, 1));  // of a compound system
   const std::optional<Axis> axis = heights ? axis_of(context, heights.get(), 0) : axis_of(context, plan, 2);
   return axis && axis->unit > 0.0 ? std::optional(axis->unit) : std::nullopt;
 }
@@ -80,9 +61,9 @@ std::optional<int> epsg_in(std::string_view name) {
 }
 
 std::optional<MapSystem> map_system(int epsg) {
-  const Context context = quiet_context();
-  const Object system = system_of(context.get(), epsg);
-  const Object plan = plan_of(context.get(), system_of(context.get(), epsg));
+  const ProjContext context = quiet_context();
+  const ProjObject system = system_of(context.get(), epsg);
+  const ProjObject plan = plan_of(context.get(), system_of(context.get(), epsg));
   if (!system || !plan) return std::nullopt;
   const std::optional<Axis> first = axis_of(context.get(), plan.get(), 0),
                             second = axis_of(context.get(), plan.get(), 1);
@@ -100,16 +81,29 @@ std::optional<MapSystem> map_system(int epsg) {
   return found;
 }
 
+bool lies_in_area(int epsg, glm::dvec2 on_map) {
+  constexpr double margin_deg = 1.0;
+  const std::optional<glm::dvec2> deg = place_on_earth(epsg, on_map);
+  const ProjContext context = quiet_context();
+  const ProjObject map = system_of(context.get(), epsg);
+  double west = 0.0, south = 0.0, east = 0.0, north = 0.0;
+  if (!deg || !map || !proj_get_area_of_use(context.get(), map.get(), &west, &south, &east, &north, nullptr))
+    return false;
+  const bool is_between = west <= east ? deg->x > west - margin_deg && deg->x < east + margin_deg
+                                       : deg->x > west - margin_deg || deg->x < east + margin_deg;
+  return is_between && deg->y > south - margin_deg && deg->y < north + margin_deg;
+}
+
 std::optional<glm::dvec2> place_on_earth(int epsg, glm::dvec2 on_map) {
-  const Context context = quiet_context();
+  const ProjContext context = quiet_context();
   constexpr int wgs_84 = 4326;
-  const Object map = plan_of(context.get(), system_of(context.get(), epsg));
-  const Object earth = system_of(context.get(), wgs_84);
+  const ProjObject map = plan_of(context.get(), system_of(context.get(), epsg));
+  const ProjObject earth = system_of(context.get(), wgs_84);
   if (!map || !earth) return std::nullopt;
-  const Object as_defined(
+  const ProjObject as_defined(
       proj_create_crs_to_crs_from_pj(context.get(), map.get(), earth.get(), nullptr, nullptr));
   if (!as_defined) return std::nullopt;
-  const Object east_first(proj_normalize_for_visualization(context.get(), as_defined.get()));
+  const ProjObject east_first(proj_normalize_for_visualization(context.get(), as_defined.get()));
   if (!east_first) return std::nullopt;
   const PJ_COORD there = proj_trans(east_first.get(), PJ_FWD, proj_coord(on_map.x, on_map.y, 0.0, 0.0));
   const glm::dvec2 deg(there.xy.x, there.xy.y);

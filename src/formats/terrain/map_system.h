@@ -28,6 +28,10 @@ std::optional<int> epsg_in(std::string_view name);
 /// length.
 std::optional<MapSystem> map_system(int epsg);
 
+/// Whether a place on a projected map, east first in its own unit, lies in the area that the map is made for,
+/// or within a degree of it.
+bool lies_in_area(int epsg, glm::dvec2 on_map);
+
 /// Degrees (east, north) of WGS 84 at a place on a projected map, given east first in the map's own unit.
 /// Nothing where PROJ knows no such map, or the place lies beyond it.
 std::optional<glm::dvec2> place_on_earth(int epsg, glm::dvec2 on_map);

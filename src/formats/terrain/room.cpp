@@ -8,7 +8,7 @@ namespace {
 
 Result<scene::Model> read_grid(const std::filesystem::path& file, const formats::ModelReading& reading,
                                Errors& warnings) {
-  return scene::read_terrain(file, reading.cell_m, warnings);
+  return scene::read_terrain(file, reading.cell_m, warnings, reading.place_deg, reading.map);
 }
 
 /// TIFF and BigTIFF, of either byte order.

@@ -80,9 +80,9 @@ Mesh tile(const HeightGrid& grid, const glm::dvec3& origin, int first_column, in
 
 }  // namespace
 
-Result<Model> read_terrain(const std::filesystem::path& file, std::optional<double> cell_m,
-                           Errors& warnings) {
-  const Result<HeightGrid> grid = read_height_grid(file, cell_m, warnings);
+Result<Model> read_terrain(const std::filesystem::path& file, std::optional<double> cell_m, Errors& warnings,
+                           std::optional<glm::dvec2>* place_deg, const std::string& map) {
+  const Result<HeightGrid> grid = read_height_grid(file, cell_m, warnings, map);
   if (!grid) return grid.errors();
   const FileLocation where{file.string(), 0, 0};
   const std::optional<glm::dvec3> origin = origin_of(*grid);
@@ -90,6 +90,8 @@ Result<Model> read_terrain(const std::filesystem::path& file, std::optional<doub
   Model model;
   model.name = file.stem().string();
   model.origin = *origin;
+  model.map = grid->map, model.true_north_deg = grid->true_north_deg;
+  if (place_deg) *place_deg = grid->place_deg;
   model.nodes.front().name = model.name;
   model.materials.push_back(surface_material("TINRelief"));
   for (int row = 0; row + 1 < grid->rows; row += tile_cells)

@@ -10,6 +10,8 @@
 namespace parvis::scene {
 
 /// Reads a GeoTIFF as read_height_grid says. Holes stay open. `Model::origin` says where on the map it is.
-Result<Model> read_terrain(const std::filesystem::path& file, std::optional<double> cell_m, Errors& warnings);
+/// `place_deg` is filled with the middle (degrees: east, north) where the file says it.
+Result<Model> read_terrain(const std::filesystem::path& file, std::optional<double> cell_m, Errors& warnings,
+                           std::optional<glm::dvec2>* place_deg = nullptr, const std::string& map = {});
 
 }  // namespace parvis::scene

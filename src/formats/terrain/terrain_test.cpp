@@ -1,14 +1,16 @@
 #include "formats/terrain/terrain.h"
 
+#include <cpl_conv.h>
 #include <gdal.h>
 #include <gtest/gtest.h>
 #include <ogr_srs_api.h>
 
 #include <cmath>
+#include <utility>
 
 #include "base/test_folder.h"
+#include "formats/terrain/map_projection.h"
 #include "formats/terrain/terrain_heights.h"
-#include "formats/terrain/utm.h"
 
 namespace parvis::scene {
 namespace {
@@ -78,11 +80,11 @@ TEST(Terrain, DegreesBecomeMetres) {
   Errors warnings;
   const Result<Model> model = read_terrain(folder.path() / "degrees.tif", std::nullopt, warnings);
   ASSERT_TRUE(model) << to_string(model.errors());
-  const glm::dvec2 corner = Utm({4.495, 52.156})({4.49005, 52.15995});
+  const glm::dvec2 corner = MapProjection::utm({4.495, 52.156})({4.49005, 52.15995});
   const glm::vec3 first = model->parts[0].mesh.positions[0];
   EXPECT_NEAR(first.x + model->origin.x, corner.x, 0.01);
   EXPECT_NEAR(first.y + model->origin.y, corner.y, 0.01);
-  const glm::dvec2 opposite = Utm({4.495, 52.156})({4.49995, 52.15205});
+  const glm::dvec2 opposite = MapProjection::utm({4.495, 52.156})({4.49995, 52.15205});
   const glm::vec3 last = model->parts.back().mesh.positions.back();
   EXPECT_NEAR(last.x + model->origin.x, opposite.x, 0.01);
   EXPECT_NEAR(last.y + model->origin.y, opposite.y, 0.01);
@@ -134,6 +136,124 @@ TEST(Terrain, ReportsItsHeightAtPlacesOnTheMap) {
   }
   EXPECT_FALSE(heights.at({599'990.0, 5'699'950.0}));
   EXPECT_FALSE(TerrainHeights(Model()).lowest());
+}
+
+/// A grid with something of its own said before it is closed.
+template <class Say>
+void write_grid_that_says(const std::filesystem::path& file, int epsg, const Say& say) {
+  const double transform[]{500'000.0, 2.0, 0.0, 5'700'000.0, 0.0, -2.0};
+  write_grid(file, transform, epsg);
+  const GDALDatasetH grid = GDALOpen(file.c_str(), GA_Update);
+  say(grid);
+  GDALClose(grid);
+}
+
+float height_of(const std::filesystem::path& file) {
+  Errors warnings;
+  const Result<Model> model = read_terrain(file, std::nullopt, warnings);
+  EXPECT_TRUE(model) << to_string(model.errors());
+  EXPECT_TRUE(warnings.empty()) << to_string(warnings);
+  return model ? bounds(*model).size().z : 0.0f;
+}
+
+TEST(Terrain, HeightsAreInTheUnitThatTheFileNames) {
+  const TestFolder folder;
+  const auto file = folder.path() / "unit.tif";
+  for (const auto& [unit, metres] : {std::pair("ft", 0.3048), std::pair("US survey foot", 1200.0 / 3937.0),
+                                     std::pair("cm", 0.01), std::pair("metre", 1.0)}) {
+    write_grid_that_says(file, 25832,
+                         [&](GDALDatasetH grid) { GDALSetRasterUnitType(GDALGetRasterBand(grid, 1), unit); });
+    EXPECT_NEAR(height_of(file), 49.5 * metres, 1e-4) << unit;
+  }
+  write_grid_that_says(file, 25832, [](GDALDatasetH grid) {
+    const OGRSpatialReferenceH map = OSRNewSpatialReference(nullptr);
+    OSRSetFromUserInput(map, "EPSG:25832+6360");  // NAVD88 in US survey feet
+    GDALSetSpatialRef(grid, map);
+    OSRDestroySpatialReference(map);
+  });
+  EXPECT_NEAR(height_of(file), 49.5 * 1200.0 / 3937.0, 1e-4) << "of the vertical system";
+}
+
+TEST(Terrain, SamplesThatAMaskLeavesOutAreHoles) {
+  const TestFolder folder;
+  const auto file = folder.path() / "masked.tif";
+  CPLSetConfigOption("GDAL_TIFF_INTERNAL_MASK", "YES");
+  write_grid_that_says(file, 25832, [](GDALDatasetH grid) {
+    const GDALRasterBandH band = GDALGetRasterBand(grid, 1);
+    GDALDeleteRasterNoDataValue(band);
+    GDALCreateMaskBand(band, GMF_PER_DATASET);
+    std::vector<std::uint8_t> mask(std::size_t(width) * height, 255);
+    for (int row = 0; row < height; ++row)
+      for (int column = 0; column < width / 2; ++column) mask[std::size_t(row * width + column)] = 0;
+    EXPECT_EQ(GDALRasterIO(GDALGetMaskBand(band), GF_Write, 0, 0, width, height, mask.data(), width, height,
+                           GDT_Byte, 0, 0),
+              CE_None);
+  });
+  Errors warnings;
+  const Result<Model> model = read_terrain(file, std::nullopt, warnings);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  EXPECT_NEAR(bounds(*model).size().x, 2.0f * (width / 2 - 1), 1e-3f) << "the eastern half alone";
+}
+
+TEST(Terrain, EverySecondSampleStandsAtItsOwnPlace) {
+  const TestFolder folder;
+  const auto file = folder.path() / "wide.tif";
+  constexpr int samples = 2000;
+  GDALAllRegister();
+  const GDALDatasetH grid =
+      GDALCreate(GDALGetDriverByName("GTiff"), file.c_str(), samples, 4, 1, GDT_Float32, nullptr);
+  double transform[]{0.0, 1.0, 0.0, 0.0, 0.0, -1.0};
+  GDALSetGeoTransform(grid, transform);
+  std::vector<float> heights;
+  for (int i = 0; i < 4 * samples; ++i) heights.push_back(float(i % samples));  // as far east as they lie
+  EXPECT_EQ(GDALRasterIO(GDALGetRasterBand(grid, 1), GF_Write, 0, 0, samples, 4, heights.data(), samples, 4,
+                         GDT_Float32, 0, 0),
+            CE_None);
+  int half = 2;
+  EXPECT_EQ(GDALBuildOverviews(grid, "AVERAGE", 1, &half, 0, nullptr, nullptr, nullptr), CE_None);
+  GDALClose(grid);
+  Errors warnings;
+  const Result<Model> model = read_terrain(file, std::nullopt, warnings);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  for (const Part& part : model->parts)
+    for (const glm::vec3& point : part.mesh.positions)
+      EXPECT_NEAR(double(point.x) + model->origin.x, double(point.z) + model->origin.z + 0.5, 1e-3);
+}
+
+TEST(Terrain, AGridIsLaidOnTheMapOfTheScene) {
+  const TestFolder folder;
+  const auto file = folder.path() / "zone.tif";
+  const double transform[]{700'000.0, 2.0, 0.0, 5'700'000.0, 0.0, -2.0};
+  write_grid(file, transform, 25832);
+  Errors warnings;
+  std::optional<glm::dvec2> place_deg;
+  const Result<Model> own = read_terrain(file, std::nullopt, warnings, &place_deg),
+                      laid = read_terrain(file, std::nullopt, warnings, nullptr, "EPSG:25833");
+  ASSERT_TRUE(own && laid);
+  EXPECT_EQ(own->map, "EPSG:25832");
+  EXPECT_EQ(laid->map, "EPSG:25833");
+  ASSERT_TRUE(place_deg);
+  const auto zone_33 = MapProjection::of("EPSG:25833"), zone_32 = MapProjection::of("EPSG:25832");
+  ASSERT_TRUE(zone_32 && zone_33);
+  EXPECT_NEAR(glm::distance((*zone_33)(*place_deg), glm::dvec2(laid->origin)), 0.0, 3.0);
+  EXPECT_NEAR(own->true_north_deg, -2.26, 0.05)
+      << "north of a grid lies east of the earth's, east of its meridian";
+  EXPECT_GT(laid->true_north_deg, 2.0);
+}
+
+TEST(MapProjection, DegreesComeBackAndNorthIsThatOfTheMeridian) {
+  const glm::dvec2 kilpisjarvi_deg(20.79, 69.04);
+  const auto finland = MapProjection::of("EPSG:3067");  // of one meridian, 27 degrees east
+  ASSERT_TRUE(finland);
+  EXPECT_NEAR(finland->true_north_deg(kilpisjarvi_deg), 5.80, 0.01);
+  EXPECT_NEAR(glm::distance(finland->degrees((*finland)(kilpisjarvi_deg)), kilpisjarvi_deg), 0.0, 1e-9);
+  const auto new_york = MapProjection::of("EPSG:2263");  // in feet
+  ASSERT_TRUE(new_york);
+  EXPECT_NEAR((*new_york)({-74.0, 40.1666667}).x, 300'000.0, 2.0) << "metres of its false easting";
+  for (const char* none : {"", "EPSG:4326", "EPSG:999999", "nonsense"})
+    EXPECT_FALSE(MapProjection::of(none)) << none;
+  const MapProjection fiji = MapProjection::utm({180.5, -17.0});
+  EXPECT_EQ(fiji.system(), "EPSG:32701") << "beyond the date line";
 }
 
 }  // namespace

@@ -60,8 +60,9 @@ ImageF clear_sky(const SkyModel& sky, int width_px) {
 }  // namespace
 
 void DayLight::hash(ContentHash& hash) const {
-  for (const double value : {when.latitude_deg, when.longitude_deg, when.time_zone_h, when.time_of_day_h,
-                             air.turbidity, air.ground_albedo, double(dome_heading), double(chosen_exposure)})
+  for (const double value :
+       {when.latitude_deg, when.longitude_deg, when.time_zone_h, when.time_of_day_h, when.true_north_deg,
+        air.turbidity, air.ground_albedo, double(dome_heading), double(chosen_exposure)})
     hash.add(value);
   for (const int value : {int(is_given), when.year, when.day_of_year, int(kind)}) hash.add(value);
   hash.add_text(dome_file.string());
@@ -98,6 +99,7 @@ void adapt(scene::Scene& scene) {
 Status light_scene(scene::Scene& scene) {
   DayLight& day = scene.data<DayLight>();
   if (!day.is_given) return Done{};
+  day.when.true_north_deg = scene.true_north_deg;
   if (Status status = check(day.when); !status) return status.errors();
   Result<std::shared_ptr<const SkyModel>> made = make_sky(day.kind, day.air, sun_of(day.when));
   if (!made) return made.errors();

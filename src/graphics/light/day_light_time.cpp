@@ -76,8 +76,11 @@ double julian_day(const PlaceAndTime& when) {
 }
 
 SolarPosition sun_of(const PlaceAndTime& when) {
-  return solar_position(julian_day(when), delta_t_s(when.year + (when.day_of_year - 0.5) / 365.25),
-                        {.latitude_deg = when.latitude_deg, .longitude_deg = when.longitude_deg});
+  SolarPosition sun =
+      solar_position(julian_day(when), delta_t_s(when.year + (when.day_of_year - 0.5) / 365.25),
+                     {.latitude_deg = when.latitude_deg, .longitude_deg = when.longitude_deg});
+  sun.azimuth_deg = std::fmod(sun.azimuth_deg + when.true_north_deg + 360.0, 360.0);
+  return sun;
 }
 
 PlaceAndTime at_hour(PlaceAndTime day, double hour) {
@@ -108,6 +111,13 @@ DaylightHours daylight_hours(PlaceAndTime day, double elevation_deg) {
   const double after = highest(result.noon_h + 10.5, result.noon_h + 13.5, depth);
   result.rise_h = passing(day, before, result.noon_h, elevation_deg);
   result.set_h = passing(day, result.noon_h, after, elevation_deg);
+  // A night about midnight that is shorter than the day is long lies on one date.
+  if (!result.set_h && result.rise_h)
+    if (const auto set_h = passing(day, before - 12.0, before, elevation_deg); set_h && *set_h >= 0.0)
+      result.set_h = set_h;
+  if (!result.rise_h && result.set_h)
+    if (const auto rise_h = passing(day, after, after + 12.0, elevation_deg); rise_h && *rise_h < 24.0)
+      result.rise_h = rise_h;
   return result;
 }
 

@@ -19,6 +19,7 @@ struct PlaceAndTime {
   int year = 2026;
   int day_of_year = 172;        ///< 1 to 365, or 366 in a leap year
   double time_of_day_h = 12.0;  ///< of the clock; 14.25 is a quarter past two
+  double true_north_deg = 0.0;  ///< clockwise from the y axis: the north of a map's grid is another
 
   bool operator==(const PlaceAndTime&) const = default;
 };
@@ -34,7 +35,7 @@ Status check(const PlaceAndTime& when);
 
 /// The Julian day of the moment, in universal time.
 double julian_day(const PlaceAndTime& when);
-/// The sun's position at that place and time, by solar_position.
+/// The sun's position at that place and time, by solar_position; its azimuth counts from the y axis.
 SolarPosition sun_of(const PlaceAndTime& when);
 
 /// The moment when the clock of `day` shows `hour`, which may be below 0 or from 24 on: it is then on the day
@@ -46,12 +47,16 @@ inline constexpr double sunrise_elevation_deg = -0.8333;
 inline constexpr double civil_twilight_elevation_deg = -6.0;
 
 /// When the sun passes an elevation on a day, by the clock; hours may be below 0 or above 24 where the clock
-/// is far from the sun. The day is that of the sun's highest position between 0 and 24 o'clock.
+/// is far from the sun. The day is that of the sun's highest position between 0 and 24 o'clock. Where it does
+/// not set after it rises, but has set between 0 o'clock and then, that is its setting, and likewise its
+/// rising.
 struct DaylightHours {
   std::optional<double> rise_h, set_h;  ///< absent where it does not pass
   double noon_h = 12.0;                 ///< when it stands highest
   double noon_elevation_deg = 0.0;      ///< geometric
 
+  /// True if the night lies between midnight and the sun's rise alone: it sets before it rises.
+  bool sets_first() const { return rise_h && set_h && *set_h < *rise_h; }
   /// True if the sun stays below the elevation all day.
   bool is_polar_night(double elevation_deg = sunrise_elevation_deg) const {
     return !rise_h && !set_h && noon_elevation_deg < elevation_deg;

@@ -110,6 +110,38 @@ TEST(DayLightTime, PolarNightAndDay) {
   EXPECT_NEAR(equinox.noon_elevation_deg, 90.0 - 43.7, 0.4);
 }
 
+TEST(DayLightTime, ANightOfOneDateHasItsSunsetBeforeItsSunrise) {
+  // Longyearbyen's last night of spring: the sun sets after midnight, and rises before two.
+  PlaceAndTime day{78.2232, 15.6267, 2.0, 2026, day_of_year(2026, 4, 18), 12.0};
+  const DaylightHours spring = daylight_hours(day);
+  ASSERT_TRUE(spring.rise_h && spring.set_h);
+  EXPECT_NEAR(*spring.set_h, 13.0 / 60.0, 0.1);
+  EXPECT_NEAR(*spring.rise_h, 1.0 + 39.0 / 60.0, 0.1);
+  EXPECT_TRUE(spring.sets_first());
+  int nights = 0;  // every date has at least one of the two until the sun stays up, and none then
+  for (int date = 100; date < 125; ++date) {
+    day.day_of_year = date;
+    const DaylightHours hours = daylight_hours(day);
+    if (hours.rise_h && hours.set_h) ++nights;
+    EXPECT_FALSE(hours.is_polar_night()) << date;
+    if (date < 108) {
+      EXPECT_TRUE(hours.rise_h && hours.set_h) << date;
+    }
+    if (date > 112) {
+      EXPECT_FALSE(hours.rise_h || hours.set_h) << date;
+    }
+  }
+  EXPECT_GE(nights, 8);
+}
+
+TEST(DayLightTime, TheSunTurnsWithTheNorthOfTheMap) {
+  PlaceAndTime when{.latitude_deg = 69.04, .longitude_deg = 20.79, .day_of_year = 80, .time_of_day_h = 14.0};
+  const double azimuth_deg = sun_of(when).azimuth_deg, elevation_deg = sun_of(when).elevation_deg();
+  when.true_north_deg = 5.8;
+  EXPECT_NEAR(sun_of(when).azimuth_deg, azimuth_deg + 5.8, 1e-9);
+  EXPECT_NEAR(sun_of(when).elevation_deg(), elevation_deg, 1e-12);
+}
+
 TEST(DayLightTime, HoursBeyondMidnightAreOfTheNeighbouringDay) {
   const PlaceAndTime leap{.year = 2028, .day_of_year = 366};
   EXPECT_EQ(at_hour(leap, 23.5), (PlaceAndTime{.year = 2028, .day_of_year = 366, .time_of_day_h = 23.5}));

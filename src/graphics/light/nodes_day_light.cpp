@@ -72,6 +72,7 @@ void build_day_light(const scene::Node& node, scene::SceneBuilder& builder) {
   // A message that cannot be leaves all as it was, for those that read it, too.
   if (const Status status = check(when); !status) return builder.fail(status.errors(), node.where);
   day.when = when;
+  day.when.true_north_deg = builder.scene.true_north_deg;
   day.air = {node.number("turbidity"), node.number("ground_albedo")};
   for (std::size_t i = 0; i < sky_kind_names.size(); ++i)
     if (node.text("model") == sky_kind_names[i]) day.kind = SkyKind(i);
@@ -125,12 +126,20 @@ void check_sky_dome(scene::SceneBuilder& builder) {
                           "for a photograph by itself"));
 }
 
+/// The map whose north is not the earth's may be that of a model after the node.
+void turn_to_north(scene::SceneBuilder& builder) {
+  const DayLight& day = builder.scene.data<DayLight>();
+  if (!day.is_given || day.when.true_north_deg == builder.scene.true_north_deg) return;
+  if (const Status status = light_scene(builder.scene); !status) builder.fail(status.errors());
+}
+
 }  // namespace
 
 void add_day_light_nodes(scene::NodeRegistry& registry) {
   registry.add(day_light_schema(), build_day_light);
   registry.add(sky_dome_schema(), build_sky_dome);
   registry.add_finish_step(check_sky_dome);
+  registry.add_finish_step(turn_to_north);
 }
 
 }  // namespace parvis::light

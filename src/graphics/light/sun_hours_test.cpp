@@ -15,6 +15,8 @@
 #include "graphics/light/sun_plan.h"
 #include "graphics/light/sun_study.h"
 #include "graphics/light/test_box.h"
+#include "scene/data/surroundings.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::light {
 namespace {
@@ -204,6 +206,25 @@ TEST(SunStudy, PlanTableAndModel) {
             2.0f);
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "box.csv"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "box.glb"));
+}
+
+TEST(SunStudy, LandToTheHorizonIsNoPartOfThePlace) {
+  scene::Scene scene = box_on_a_plain({-4, -3, 0}, {5, 6, 14});
+  const auto land = std::make_shared<scene::Model>();
+  land->materials.push_back(scene::matt(glm::vec3(0.5f)));
+  scene::Part part;
+  part.mesh.positions = {{-9000, -9000, -1}, {9000, -9000, -1}, {9000, 9000, -1}, {-9000, 9000, -1}};
+  part.mesh.normals.assign(4, {0, 0, 1}), part.mesh.uvs.assign(4, {0, 0});
+  part.mesh.indices = {0, 1, 2, 0, 2, 3};
+  land->parts.push_back(part);
+  scene.objects.emplace_back().model = land;
+  const SunStudyOptions options{.period = equinox, .cell_m = 2.0, .area = {}, .has_facades = false};
+  EXPECT_FALSE(study_sun(scene, options)) << "the control: 81 million cells";
+  scene.data<scene::ItemsOf<scene::Surroundings>>().items.push_back({land});
+  const Result<SunStudy> study = study_sun(scene, options);
+  ASSERT_TRUE(study) << to_string(study.errors());
+  EXPECT_LT(study->columns, 100);
+  EXPECT_GT(study->columns, 20);
 }
 
 TEST(SunStudy, ACourtyardWithoutSunBreaksTheRule) {

@@ -18,6 +18,7 @@
 #include "formats/gltf/gltf_writer.h"
 #include "graphics/light/finer_mesh.h"
 #include "graphics/light/sun_plan.h"
+#include "scene/data/surroundings.h"
 #include "scene/data/traced_scene.h"
 
 namespace parvis::light {
@@ -57,10 +58,11 @@ class OpaqueThings final : public scene::TracedScene {
 };
 
 /// Parts that stand still and are seen, and photographed surfaces, without backdrops: what has hours of sun.
-/// Leaves cast shadows, but have none.
-void for_each_surface(const scene::Scene& scene, const VisitMesh& visit) {
+/// Leaves cast shadows, but have none. `has_surroundings`: with land that goes on to the horizon.
+void for_each_surface(const scene::Scene& scene, const VisitMesh& visit, bool has_surroundings = true) {
   for (const scene::Object& object : scene.objects) {
     if (object.is_dynamic || !object.is_visible) continue;
+    if (!has_surroundings && scene::surrounds_place(scene, object)) continue;
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
     for (const scene::Part& part : object.model->parts)
       if (object.model->materials[std::size_t(part.material)].alpha_mode == scene::Alpha::opaque &&
@@ -73,11 +75,18 @@ void for_each_surface(const scene::Scene& scene, const VisitMesh& visit) {
   });
 }
 
+/// Of the place; of the land around it where there is nothing else.
 Bounds bounds_of(const scene::Scene& scene) {
   Bounds bounds;
-  for_each_surface(scene, [&](const Mesh& mesh, const glm::mat4& world_from_mesh) {
-    bounds.add(transformed(world_from_mesh, mesh.bounds()));
-  });
+  for (const bool has_surroundings : {false, true}) {
+    for_each_surface(
+        scene,
+        [&](const Mesh& mesh, const glm::mat4& world_from_mesh) {
+          bounds.add(transformed(world_from_mesh, mesh.bounds()));
+        },
+        has_surroundings);
+    if (bounds.min.x <= bounds.max.x) break;
+  }
   return bounds;
 }
 

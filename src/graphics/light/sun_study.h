@@ -20,7 +20,7 @@ namespace parvis::light {
 struct SunStudyOptions {
   SunPeriod period;
   double cell_m = 2.0;  ///< of the plan, and the longest edge of the coloured model's triangles
-  /// x and y of two corners of what is studied; absent: all that stands still.
+  /// x and y of two corners of what is studied; absent: all that stands still, without land to the horizon.
   std::optional<glm::dvec4> area;
   bool has_facades = true;
   JudgedGround judged = {};            ///< what the rule of open space is asked of

@@ -57,6 +57,12 @@ bool is_city(const Model& model) {
   });
 }
 
+/// True for land alone, on which nothing stands.
+bool is_bare_land(const Model& model) {
+  return std::ranges::all_of(model.parts,
+                             [&](const Part& part) { return material_of(model, part).name == "TINRelief"; });
+}
+
 /// In plan, m2.
 double area_of(const Model& model, const std::string& name) {
   double area = 0.0;
@@ -230,8 +236,11 @@ std::string bare_scene(const Model& model, const std::string& file,
   const glm::vec3 size = scene::bounds(model).size();
   const bool is_town = is_city(model), is_exhibit = !is_town && std::max(size.x, size.y) < exhibit_m;
   const bool is_alone = is_exhibit || (is_town && surfaces.empty() && std::max(size.x, size.y) < alone_m);
-  const View street = is_alone ? outside_view(scene, place) : street_view(scene, place, surfaces);
-  const View above = overview(scene, place, street);
+  const bool is_land = is_bare_land(model);
+  const View street = is_land    ? view_on_land(scene, place)
+                      : is_alone ? outside_view(scene, place)
+                                 : street_view(scene, place, surfaces);
+  const View above = is_land ? land_view(scene) : overview(scene, place, street);
 
   std::string script = fmt::format("// Made up by parvis for {}; change it as you like.\n", file);
   script += fmt::format("model(name=\"place\", file={}{})", quoted(file), is_exhibit ? ", reflective=1" : "");
@@ -247,7 +256,10 @@ std::string bare_scene(const Model& model, const std::string& file,
             "air(haze_per_m=0.0004)\n"
             "shadowMap()\n";
   if (is_exhibit) script += "reflection(method=\"rerendered_cube_map\", resolution=256)\n";
-  script += fmt::format("\n{}{}", camera("street", street), camera("overview", above));
+  if (is_land)
+    script += fmt::format("\n{}{}", camera("overview", above), camera("hill", street));
+  else
+    script += fmt::format("\n{}{}", camera("street", street), camera("overview", above));
   return script;
 }
 

@@ -56,6 +56,43 @@ TEST(BareFile, BareVolumesAreDressed) {
   EXPECT_EQ(script.find("TINRelief"), std::string::npos) << "nothing that would match nothing";
 }
 
+/// A ridge from west to east, 400 m by 300 m and 80 m high, about a local origin in its middle.
+Model ridge() {
+  Mesh mesh;
+  constexpr int columns = 41, rows = 31;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const float x = 10.0f * float(column) - 200.0f, y = 10.0f * float(row) - 150.0f;
+      mesh.positions.emplace_back(x, y, 80.0f * std::max(0.0f, 1.0f - std::abs(y) / 90.0f));
+      mesh.normals.emplace_back(0, 0, 1), mesh.uvs.emplace_back(x, y);
+      if (row + 1 == rows || column + 1 == columns) continue;
+      const auto at = [&](int c, int r) { return std::uint32_t((row + r) * columns + column + c); };
+      for (const std::uint32_t corner : {at(0, 0), at(1, 0), at(1, 1), at(0, 0), at(1, 1), at(0, 1)})
+        mesh.indices.push_back(corner);
+    }
+  Model model;
+  add_part(model, "TINRelief", std::move(mesh));
+  return model;
+}
+
+TEST(BareFile, BareLandIsSeenFromAboveTheGround) {
+  const std::string script = bare_scene(ridge(), "ridge.tif", glm::dvec2(20.0, -40.0));
+  EXPECT_LT(script.find("camera(name=\"overview\""), script.find("camera(name=\"hill\"")) << script;
+  EXPECT_NE(script.find("latitude=-40, longitude=20"), std::string::npos) << script;
+  scene::Scene scene;
+  scene.objects.emplace_back();
+  scene.objects.back().model = std::make_shared<const Model>(ridge());
+  const View above = land_view(scene);
+  EXPECT_GT(above.eye.z, 100.0f) << "over the crest";
+  EXPECT_LT(glm::length(glm::vec2(above.target)), 1.0f);
+  const scene::PlaceHeights place(scene, {}, 60.0f);
+  const View on_land = view_on_land(scene, place);
+  EXPECT_LT(std::abs(on_land.eye.x), 200.0f);
+  EXPECT_LT(std::abs(on_land.eye.y), 150.0f);
+  EXPECT_NEAR(on_land.eye.z, 80.0f * (1.0f - std::abs(on_land.eye.y) / 90.0f) + 1.6f, 3.0f)
+      << "at eye height";
+}
+
 TEST(BareFile, TheSunIsThatOfThePlace) {
   const Model model = street_of_houses();
   const std::string unknown = "dayLight(latitude=48, longitude=10, standardMeridian=2, julianDay=172, ";

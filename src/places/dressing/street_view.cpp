@@ -357,13 +357,30 @@ View facing_view(const Bounds& bounds, glm::vec2 toward, const scene::PlaceHeigh
   return view;
 }
 
+Bounds bounds_of(const scene::Scene& scene) {
+  Bounds bounds;
+  for (const scene::Object& object : scene.objects)
+    bounds.add(transformed(object.world_from_model, scene::bounds(*object.model)));
+  return bounds;
+}
+
+/// The nearest view from above a spot, in this direction, that shows all of the bounds.
+View view_of_all(const Bounds& bounds, glm::vec3 spot, glm::vec2 toward, float smallest_radius_m) {
+  constexpr int steps = 90;  // up to four times the radius of a large place
+  View view;
+  float radius_m = smallest_radius_m;
+  for (int i = 0; i < steps; ++i, radius_m *= 1.06f) {
+    view = view_from_above(spot, toward, radius_m);
+    if (fits(bounds, view)) break;
+  }
+  return view;
+}
+
 }  // namespace
 
 View outside_view(const scene::Scene& scene, const scene::PlaceHeights& place) {
   constexpr int directions = 8;
-  Bounds bounds;
-  for (const scene::Object& object : scene.objects)
-    bounds.add(transformed(object.world_from_model, scene::bounds(*object.model)));
+  const Bounds bounds = bounds_of(scene);
   glm::vec2 toward(0.0f);
   float best = -1.0f;
   for (int i = 0; i < directions; ++i) {
@@ -409,14 +426,20 @@ View overview(const scene::Scene& scene, const scene::PlaceHeights& place, const
   const bool is_outside =
       eye.x < built.min.x || eye.x > built.max.x || eye.y < built.min.y || eye.y > built.max.y;
   const glm::vec2 toward = glm::normalize(is_outside ? glm::vec2(eye - built.centre()) : to_sun);
-  View view;
-  constexpr int steps = 90;  // from the smallest up to four times the radius of a large place
-  float radius_m = std::max(whole_m, smallest_m);
-  for (int i = 0; i < steps; ++i, radius_m *= 1.06f) {
-    view = view_from_above(built.centre(), toward, radius_m);
-    if (fits(built, view)) break;
-  }
-  return view;
+  return view_of_all(built, built.centre(), toward, std::max(whole_m, smallest_m));
+}
+
+View land_view(const scene::Scene& scene) {
+  const Bounds land = bounds_of(scene);
+  return view_of_all(land, land.centre(), glm::normalize(to_sun),
+                     0.25f * glm::length(glm::vec2(land.size())));
+}
+
+View view_on_land(const scene::Scene& scene, const scene::PlaceHeights& place) {
+  const Bounds land = bounds_of(scene);
+  const glm::vec2 middle(land.centre()),
+      spot = middle + 0.25f * glm::vec2(land.size()) * glm::normalize(to_sun);
+  return {glm::vec3(spot, place.at(spot) + eye_m), glm::vec3(middle, place.at(middle) + eye_m)};
 }
 
 std::vector<scene::Road> road_surfaces(const scene::Model& model) {

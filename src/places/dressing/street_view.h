@@ -22,6 +22,12 @@ View street_view(const scene::Scene& scene, const scene::PlaceHeights& place,
 /// Of a house or a thing that stands alone: from its sunny side, so far away that it is seen whole.
 View outside_view(const scene::Scene& scene, const scene::PlaceHeights& place);
 
+/// Of land on which nothing stands: from so high above its sunny side that all of it is seen.
+View land_view(const scene::Scene& scene);
+
+/// Of that land as a person sees it who stands on it, in its sunny half.
+View view_on_land(const scene::Scene& scene, const scene::PlaceHeights& place);
+
 /// From above the surroundings of `street` (130 m around), or the whole place where it is smaller, from its
 /// foot to its top.
 View overview(const scene::Scene& scene, const scene::PlaceHeights& place, const View& street);

@@ -98,6 +98,9 @@ struct Model {
   std::vector<Animation> animations;
   std::vector<Road> roads;  ///< centre lines of roads that the file contains, in the model's frame
   glm::dvec3 origin{0.0};   ///< georeferenced coordinates of the local origin, zero where there are none
+  std::string map =
+      {};  ///< whose coordinates these are, as formats/terrain/map_projection.h reads it; empty: unknown
+  double true_north_deg = 0.0;  ///< at the origin, clockwise from the y axis
 
   /// Number of triangles in all parts.
   std::size_t triangle_count() const;

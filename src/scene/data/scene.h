@@ -85,8 +85,10 @@ struct Scene {
   float exposure = 1.0f;    ///< multiplies radiance before the tone curve
   float haze_per_m = 0.0f;  ///< extinction of the air
   RoadGraph roads;
-  glm::dvec3 origin{0.0};      ///< georeferenced coordinates of the world's origin, zero where there are none
-  std::filesystem::path file;  ///< the script; empty: the scene was made in memory
+  glm::dvec3 origin{0.0};  ///< georeferenced coordinates of the world's origin, zero where there are none
+  std::string map;         ///< whose coordinates these are, as Model::map; empty: unknown
+  double true_north_deg = 0.0;  ///< at the origin, clockwise from the y axis
+  std::filesystem::path file;   ///< the script; empty: the scene was made in memory
   /// Kinds of things that rooms render themselves, beside the objects: those that the program has registered.
   std::vector<TracedKind> traced_kinds;
   RoomDataSet room_data;  ///< `data` finds what a room keeps here

@@ -75,7 +75,9 @@ void make_narrow_streets_one_way(std::vector<Road>& roads, float narrowest_lane_
   StreetPlan plan(roads);
   for (std::size_t i = 0; i < roads.size(); ++i) {
     Road& road = roads[i];
-    if (road.is_one_way || road.lanes_each_way > 1 || road.lane_width_m >= narrowest_lane_m) continue;
+    if (road.is_one_way || road.lanes_each_way > 1 || road.lanes_back > 1 ||
+        road.lane_width_m >= narrowest_lane_m)
+      continue;
     road.is_one_way = plan.has_way_round(i);
     if (!road.is_one_way && plan.has_way_along(i)) {
       std::ranges::reverse(road.path);

@@ -33,8 +33,7 @@ struct Arm {
   float cut_m = 0.0f;             ///< of the street, taken by the crossing
   std::vector<int> lanes_in;      ///< that arrive at the node, from the middle of the road outward
   std::vector<int> lanes_out;     ///< that leave it, likewise
-  glm::vec3 end{0.0f};            ///< of the centre line after the cut
-  glm::vec3 inward_at_end{0.0f};  ///< unit, toward the node
+  glm::vec3 inward_at_end{0.0f};  ///< of the centre line after the cut: unit, toward the node
 };
 
 Arm make_arm(std::size_t index, const Street& street, const Road& road, bool is_start) {
@@ -105,19 +104,23 @@ int add_lane(RoadGraph& graph, Path points, const Road& road) {
 void add_street_lanes(RoadGraph& graph, const Street& street, const Road& road, Arm& start, Arm& end) {
   const float length = street.path.length();
   const Path part = street.path.part(start.cut_m, length - end.cut_m);
-  const int lanes = road.lanes_each_way;
   const float outermost_m = half_width_m(road) - 0.5f * road.lane_width_m;
   const Path centre = rounded(part, outermost_m + corner_radius_m);
   const Path reversed(centre.rbegin(), centre.rend());
 
-  start.end = centre.front(), start.inward_at_end = glm::normalize(centre[0] - centre[1]);
-  end.end = reversed.front(), end.inward_at_end = glm::normalize(reversed[0] - reversed[1]);
-  for (int i = 0; i < lanes; ++i) {
-    const float aside = road.is_one_way ? float(i) - 0.5f * float(lanes - 1) : float(i) + 0.5f;
-    const int forward = add_lane(graph, parallel(centre, aside * road.lane_width_m), road);
+  start.inward_at_end = glm::normalize(centre[0] - centre[1]);
+  end.inward_at_end = glm::normalize(reversed[0] - reversed[1]);
+  const int along = road.lanes_each_way, against = road.lanes_against();
+  const float divider = 0.5f * float(against - along);  // lanes to the right of the middle
+  const auto aside_m = [&](float lane, float side) {
+    return (side * divider + lane + 0.5f) * road.lane_width_m;
+  };
+  for (int i = 0; i < along; ++i) {
+    const int forward = add_lane(graph, parallel(centre, aside_m(float(i), 1.0f)), road);
     start.lanes_out.push_back(forward), end.lanes_in.push_back(forward);
-    if (road.is_one_way) continue;
-    const int backward = add_lane(graph, parallel(reversed, aside * road.lane_width_m), road);
+  }
+  for (int i = 0; i < against; ++i) {
+    const int backward = add_lane(graph, parallel(reversed, aside_m(float(i), -1.0f)), road);
     end.lanes_out.push_back(backward), start.lanes_in.push_back(backward);
   }
 }
@@ -145,10 +148,10 @@ void turn(RoadGraph& graph, int from, int to, int crossing) {
        turning_curve(a.points.back(), end_direction(a), b.points.front(), start_direction(b)), crossing);
 }
 
-/// The way round at the end of a street, `aside_m` being the distance of its lanes from the middle: a swing
+/// The way round at the end of a street, `aside_m` being the distance of its lanes from their middle: a swing
 /// to the right, a wide circle to the left, a swing to the right. `depth_m` is what there is before the
 /// street's end.
-Path loop(const Arm& arm, float aside_m, float depth_m) {
+Path loop(const Arm& arm, glm::vec3 middle, float aside_m, float depth_m) {
   const float over = depth_m - aside_m;
   const float fitting =
       0.5f * (std::sqrt(over * over + 2.0f * (depth_m * depth_m + aside_m * aside_m)) - over);
@@ -162,7 +165,7 @@ Path loop(const Arm& arm, float aside_m, float depth_m) {
     for (int i = 0; i <= steps; ++i) {
       const float angle = glm::mix(from, to, float(i) / float(steps));
       const glm::vec2 p = centre + radius * glm::vec2(std::cos(angle), std::sin(angle));
-      points.push_back(arm.end + ahead * p.x + left * p.y);
+      points.push_back(middle + ahead * p.x + left * p.y);
     }
   };
   constexpr float right_angle = glm::half_pi<float>();
@@ -174,9 +177,11 @@ Path loop(const Arm& arm, float aside_m, float depth_m) {
 
 void add_way_round(RoadGraph& graph, const Arm& arm, int crossing) {
   for (std::size_t i = 0; i < arm.lanes_in.size(); ++i) {
-    const glm::vec3 start = graph.lanes[std::size_t(arm.lanes_in[i])].points.back();
-    const float aside_m = glm::distance(glm::vec2(start), glm::vec2(arm.end));
-    join(graph, arm.lanes_in[i], arm.lanes_out[i], loop(arm, aside_m, arm.cut_m), crossing);
+    const int in = arm.lanes_in[i], out = arm.lanes_out[std::min(i, arm.lanes_out.size() - 1)];
+    const glm::vec3 start = graph.lanes[std::size_t(in)].points.back(),
+                    end = graph.lanes[std::size_t(out)].points.front();
+    const float aside_m = 0.5f * glm::distance(glm::vec2(start), glm::vec2(end));
+    join(graph, in, out, loop(arm, 0.5f * (start + end), aside_m, arm.cut_m), crossing);
   }
 }
 

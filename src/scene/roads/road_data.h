@@ -17,7 +17,7 @@ struct PlannedRoad {
   void hash(ContentHash& hash) const {
     hash.add(road.path);
     for (const float value : {road.lane_width_m, road.speed_limit}) hash.add(value);
-    for (const int value : {road.lanes_each_way, int(road.is_one_way)}) hash.add(value);
+    for (const int value : {road.lanes_each_way, road.lanes_back, int(road.is_one_way)}) hash.add(value);
   }
 };
 

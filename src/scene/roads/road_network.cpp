@@ -71,9 +71,9 @@ std::optional<Error> fault_of(const Road& road, std::size_t index) {
   for (const glm::vec3& p : road.path)
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
       return error_at(road.where, "{}: its path holds a number that is not finite", name);
-  if (road.lanes_each_way < 1 || road.lanes_each_way > max_lanes_each_way)
-    return error_at(road.where, "{}: expected 1 to {} lanes, got {}", name, max_lanes_each_way,
-                    road.lanes_each_way);
+  for (const int lanes : {road.lanes_each_way, road.lanes_back > 0 ? road.lanes_back : road.lanes_each_way})
+    if (lanes < 1 || lanes > max_lanes_each_way)
+      return error_at(road.where, "{}: expected 1 to {} lanes, got {}", name, max_lanes_each_way, lanes);
   if (!(road.lane_width_m > 0.0f) || !std::isfinite(road.lane_width_m))
     return error_at(road.where, "{}: expected a lane width above 0 m, got {}", name, road.lane_width_m);
   if (!(road.speed_limit > 0.0f) || !std::isfinite(road.speed_limit))
@@ -268,7 +268,8 @@ Status check_size(const RoadNetwork& network, std::span<const Road> roads, std::
                     network.streets.size(), max_streets);
   double lanes_km = 0.0;
   for (const Street& street : network.streets)
-    lanes_km += 2e-3 * double(street.path.length()) * double(roads[street.road].lanes_each_way);
+    lanes_km += 1e-3 * double(street.path.length()) *
+                double(roads[street.road].lanes_each_way + roads[street.road].lanes_against());
   if (!(lanes_km <= max_lanes_km))
     return error_at(roads.front().where, "the roads have {:.0f} km of lanes; expected {:.0f} km at most",
                     lanes_km, max_lanes_km);
@@ -292,7 +293,7 @@ Status check_size(const RoadNetwork& network, std::span<const Road> roads, std::
 }  // namespace
 
 float half_width_m(const Road& road) {
-  return road.lane_width_m * float(road.lanes_each_way) * (road.is_one_way ? 0.5f : 1.0f);
+  return 0.5f * road.lane_width_m * float(road.lanes_each_way + road.lanes_against());
 }
 
 Result<RoadNetwork> connect_roads(std::span<const Road> roads, std::size_t max_complaints) {

@@ -1,0 +1,277 @@
+#include "formats/ifc/ifc_sweeps.h"
+
+#include <ifcpp/IFC4/include/IfcBoolean.h>
+#include <ifcpp/IFC4/include/IfcBooleanResult.h>
+#include <ifcpp/IFC4/include/IfcCartesianPoint.h>
+#include <ifcpp/IFC4/include/IfcClosedShell.h>
+#include <ifcpp/IFC4/include/IfcDirection.h>
+#include <ifcpp/IFC4/include/IfcExtrudedAreaSolidTapered.h>
+#include <ifcpp/IFC4/include/IfcFace.h>
+#include <ifcpp/IFC4/include/IfcFaceOuterBound.h>
+#include <ifcpp/IFC4/include/IfcFacetedBrep.h>
+#include <ifcpp/IFC4/include/IfcLengthMeasure.h>
+#include <ifcpp/IFC4/include/IfcParameterValue.h>
+#include <ifcpp/IFC4/include/IfcPolyLoop.h>
+#include <ifcpp/IFC4/include/IfcPolyline.h>
+#include <ifcpp/IFC4/include/IfcPositiveLengthMeasure.h>
+#include <ifcpp/IFC4/include/IfcReal.h>
+#include <ifcpp/IFC4/include/IfcRepresentation.h>
+#include <ifcpp/IFC4/include/IfcRevolvedAreaSolidTapered.h>
+#include <ifcpp/IFC4/include/IfcStyledItem.h>
+#include <ifcpp/IFC4/include/IfcSweptDiskSolid.h>
+#include <ifcpp/geometry/Carve/GeometryConverter.h>
+#include <ifcpp/model/BuildingModel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <numbers>
+#include <unordered_map>
+#include <vector>
+
+namespace parvis::scene {
+namespace {
+
+using glm::dvec2, glm::dvec3;
+using Ring = std::vector<dvec3>;
+
+constexpr double same_m = 1e-6;  // points of a path that lie nearer are one
+constexpr int disk_corners = 16;
+
+/// Plane faces: the first ring of each runs counter-clockwise seen from outside, the others are holes.
+using Faces = std::vector<std::vector<Ring>>;
+
+std::shared_ptr<IfcFacetedBrep> brep_of(const Faces& faces, double metres_per_unit) {
+  const auto shell = std::make_shared<IfcClosedShell>();
+  for (const std::vector<Ring>& rings : faces) {
+    const auto face = std::make_shared<IfcFace>();
+    for (const Ring& ring : rings) {
+      const auto loop = std::make_shared<IfcPolyLoop>();
+      for (const dvec3& corner : ring) {
+        const auto point = std::make_shared<IfcCartesianPoint>();
+        for (int axis = 0; axis < 3; ++axis)
+          point->m_Coordinates.push_back(std::make_shared<IfcLengthMeasure>(corner[axis] / metres_per_unit));
+        loop->m_Polygon.push_back(point);
+      }
+      const std::shared_ptr<IfcFaceBound> bound =
+          face->m_Bounds.empty() ? std::make_shared<IfcFaceOuterBound>() : std::make_shared<IfcFaceBound>();
+      bound->m_Bound = loop;
+      bound->m_Orientation = std::make_shared<IfcBoolean>(true);
+      face->m_Bounds.push_back(bound);
+    }
+    shell->m_CfsFaces.push_back(face);
+  }
+  auto brep = std::make_shared<IfcFacetedBrep>();
+  brep->m_Outer = shell;
+  return brep;
+}
+
+/// The side between two rings of the same number of corners, the first below the second where they run
+/// counter-clockwise seen from above. Plane where the rings are; else of triangles.
+void add_side(const Ring& below, const Ring& above, bool is_plane, Faces& faces) {
+  for (std::size_t i = 0; i < below.size(); ++i) {
+    const std::size_t next = (i + 1) % below.size();
+    if (is_plane) {
+      faces.push_back({{below[i], below[next], above[next], above[i]}});
+      continue;
+    }
+    faces.push_back({{below[i], below[next], above[next]}});
+    faces.push_back({{below[i], above[next], above[i]}});
+  }
+}
+
+Ring reversed(Ring ring) {
+  std::ranges::reverse(ring);
+  return ring;
+}
+
+/// Points of a path that are not the one before.
+std::vector<dvec3> without_repeats(const std::vector<dvec3>& path) {
+  std::vector<dvec3> points;
+  for (const dvec3& point : path)
+    if (points.empty() || glm::distance(points.back(), point) > same_m) points.push_back(point);
+  return points;
+}
+
+/// The rings of a tube along a path: each lies in the plane between its two pieces, so that the pieces have
+/// the same cross section; none is turned against the one before.
+std::vector<Ring> tube(const std::vector<dvec3>& path, double radius) {
+  std::vector<dvec3> along;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) along.push_back(glm::normalize(path[i + 1] - path[i]));
+  const dvec3 first = along.front();
+  const dvec3 other = std::abs(first.z) < 0.9 ? dvec3(0, 0, 1) : dvec3(1, 0, 0);
+  const dvec3 x = glm::normalize(glm::cross(other, first)), y = glm::cross(first, x);
+  Ring ring;
+  for (int i = 0; i < disk_corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / disk_corners;
+    ring.push_back(path.front() + radius * (std::cos(angle) * x + std::sin(angle) * y));
+  }
+  std::vector<Ring> rings{ring};
+  constexpr double sharpest = 0.15;  // cosine of half a turn: what turns back is cut off square
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const dvec3 in = along[i - 1], out = along[std::min(i, along.size() - 1)];
+    dvec3 normal = glm::length(in + out) > same_m ? glm::normalize(in + out) : in;
+    if (glm::dot(normal, in) < sharpest) normal = in;
+    for (dvec3& corner : ring) corner += in * (glm::dot(path[i] - corner, normal) / glm::dot(in, normal));
+    rings.push_back(ring);
+  }
+  return rings;
+}
+
+Faces disk_faces(const std::vector<dvec3>& path, double radius, double inner_radius) {
+  const std::vector<Ring> outer = tube(path, radius);
+  Faces faces;
+  for (std::size_t i = 0; i + 1 < outer.size(); ++i) add_side(outer[i], outer[i + 1], true, faces);
+  if (!(inner_radius > 0.0)) {
+    faces.push_back({reversed(outer.front())});
+    faces.push_back({outer.back()});
+    return faces;
+  }
+  const std::vector<Ring> inner = tube(path, inner_radius);
+  for (std::size_t i = 0; i + 1 < inner.size(); ++i)
+    add_side(reversed(inner[i]), reversed(inner[i + 1]), true, faces);
+  add_side(inner.front(), outer.front(), true, faces);
+  add_side(outer.back(), inner.back(), true, faces);
+  return faces;
+}
+
+double value_of(const std::shared_ptr<IfcPositiveLengthMeasure>& length, double unit_m) {
+  return length && std::isfinite(length->m_value) ? length->m_value * unit_m : 0.0;
+}
+
+/// Of a polyline with parameters, which count its points, the part between them.
+std::vector<dvec3> trimmed(const std::vector<dvec3>& path, double from, double to) {
+  const double last = double(path.size() - 1);
+  from = std::clamp(from, 0.0, last), to = std::clamp(to, 0.0, last);
+  if (!(from < to)) return path;
+  const auto at = [&](double parameter) {
+    const std::size_t i = std::min(std::size_t(parameter), path.size() - 2);
+    return glm::mix(path[i], path[i + 1], parameter - double(i));
+  };
+  std::vector<dvec3> part{at(from)};
+  for (std::size_t i = std::size_t(std::floor(from)) + 1; double(i) < to; ++i) part.push_back(path[i]);
+  part.push_back(at(to));
+  return part;
+}
+
+std::shared_ptr<IfcFacetedBrep> body_of(const IfcSweptDiskSolid& solid, RepresentationConverter& converter,
+                                        double unit_m, std::string& problem) {
+  std::vector<vec3> points, starts;
+  converter.getCurveConverter()->convertIfcCurve(solid.m_Directrix, points, starts);
+  std::vector<dvec3> path;
+  for (const vec3& point : points) path.emplace_back(point.x, point.y, point.z);
+  if (dynamic_cast<const IfcPolyline*>(solid.m_Directrix.get()) && solid.m_StartParam && solid.m_EndParam &&
+      path.size() >= 2)
+    path = trimmed(path, solid.m_StartParam->m_value, solid.m_EndParam->m_value);
+  path = without_repeats(path);
+  const double radius = value_of(solid.m_Radius, unit_m), inner = value_of(solid.m_InnerRadius, unit_m);
+  if (path.size() < 2 || !(radius > 0.0) || inner >= radius) {
+    problem = "its path has no length, or its radii are no tube";
+    return nullptr;
+  }
+  return brep_of(disk_faces(path, radius, inner), unit_m);
+}
+
+/// The rings of a profile, the outer one counter-clockwise, the others clockwise.
+std::vector<std::vector<dvec2>> rings_of(std::shared_ptr<IfcProfileDef> profile,
+                                         RepresentationConverter& converter) {
+  std::vector<std::vector<dvec2>> rings;
+  const auto converted = converter.getProfileCache()->getProfileConverter(profile);
+  if (!converted) return rings;
+  for (const std::vector<vec2>& path : converted->getCoordinates()) {
+    std::vector<dvec2>& ring = rings.emplace_back();
+    for (const vec2& point : path) ring.emplace_back(point.x, point.y);
+    while (ring.size() > 1 && glm::distance(ring.front(), ring.back()) < same_m) ring.pop_back();
+    double area = 0.0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const dvec2 a = ring[i], b = ring[(i + 1) % ring.size()];
+      area += a.x * b.y - a.y * b.x;
+    }
+    if ((area > 0.0) != (rings.size() == 1)) std::ranges::reverse(ring);
+  }
+  return rings;
+}
+
+std::shared_ptr<IfcFacetedBrep> body_of(const IfcExtrudedAreaSolidTapered& solid,
+                                        RepresentationConverter& converter, double unit_m,
+                                        std::string& problem) {
+  const auto from = rings_of(solid.m_SweptArea, converter), to = rings_of(solid.m_EndSweptArea, converter);
+  bool is_alike = from.size() == to.size() && !from.empty();
+  for (std::size_t i = 0; is_alike && i < from.size(); ++i)
+    is_alike = from[i].size() == to[i].size() && from[i].size() >= 3;
+  if (!is_alike || !solid.m_ExtrudedDirection || solid.m_ExtrudedDirection->m_DirectionRatios.size() < 3) {
+    problem = "its two profiles are not of one kind; it is drawn without the taper";
+    return nullptr;
+  }
+  dvec3 along(0.0);
+  for (int axis = 0; axis < 3; ++axis)
+    if (const auto& ratio = solid.m_ExtrudedDirection->m_DirectionRatios[std::size_t(axis)])
+      along[axis] = ratio->m_value;
+  along *= value_of(solid.m_Depth, unit_m) / std::max(glm::length(along), 1e-12);
+  std::shared_ptr<TransformData> position;
+  if (solid.m_Position)
+    converter.getPlacementConverter()->convertIfcAxis2Placement3D(solid.m_Position, position);
+  const auto placed = [&](const std::vector<dvec2>& ring, dvec3 offset) {
+    Ring result;
+    for (const dvec2& point : ring) {
+      vec3 at = carve::geom::VECTOR(point.x + offset.x, point.y + offset.y, offset.z);
+      if (position) at = position->m_matrix * at;
+      result.emplace_back(at.x, at.y, at.z);
+    }
+    return result;
+  };
+  Faces faces(2);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    Ring below = placed(from[i], dvec3(0.0)), above = placed(to[i], along);
+    if (along.z < 0.0) below = reversed(below), above = reversed(above);
+    add_side(below, above, false, faces);
+    faces[0].push_back(reversed(below)), faces[1].push_back(above);
+  }
+  return brep_of(faces, unit_m);
+}
+
+/// Puts other bodies in the place of some wherever a body can stand.
+template <class Pointer, class Replacements>
+void put_in(Pointer& place, const Replacements& replacements) {
+  const auto* item = dynamic_cast<const BuildingEntity*>(place.get());
+  if (const auto found = replacements.find(item); item && found != replacements.end()) place = found->second;
+}
+
+}  // namespace
+
+void replace_sweeps(BuildingModel& building, RepresentationConverter& converter,
+                    const std::function<void(int, const std::string&)>& complain) {
+  const double unit_m = building.getUnitConverter()->getLengthInMeterFactor();
+  std::unordered_map<const BuildingEntity*, std::shared_ptr<IfcFacetedBrep>> replacements;
+  for (const auto& [id, entity] : building.getMapIfcEntities()) {
+    std::string problem;
+    std::shared_ptr<IfcFacetedBrep> body;
+    try {
+      if (const auto* disk = dynamic_cast<const IfcSweptDiskSolid*>(entity.get()))
+        body = body_of(*disk, converter, unit_m, problem);
+      else if (const auto* tapered = dynamic_cast<const IfcExtrudedAreaSolidTapered*>(entity.get()))
+        body = body_of(*tapered, converter, unit_m, problem);
+      else if (dynamic_cast<const IfcRevolvedAreaSolidTapered*>(entity.get()))
+        problem = "its end has another profile, which is left out";
+    } catch (const std::exception& failure) {  // of IFC++: a curve that it cannot follow
+      problem = failure.what();
+    }
+    if (!problem.empty()) complain(id, problem);
+    if (!body) continue;
+    const auto* item = dynamic_cast<const IfcRepresentationItem*>(entity.get());
+    body->m_entity_id = id;
+    body->m_StyledByItem_inverse = item->m_StyledByItem_inverse;
+    body->m_LayerAssignment_inverse = item->m_LayerAssignment_inverse;
+    replacements.emplace(entity.get(), body);
+  }
+  if (replacements.empty()) return;
+  for (const auto& [id, entity] : building.getMapIfcEntities()) {
+    if (auto* representation = dynamic_cast<IfcRepresentation*>(entity.get()))
+      for (auto& item : representation->m_Items) put_in(item, replacements);
+    if (auto* result = dynamic_cast<IfcBooleanResult*>(entity.get()))
+      put_in(result->m_FirstOperand, replacements), put_in(result->m_SecondOperand, replacements);
+    if (auto* styled = dynamic_cast<IfcStyledItem*>(entity.get())) put_in(styled->m_Item, replacements);
+  }
+}
+
+}  // namespace parvis::scene

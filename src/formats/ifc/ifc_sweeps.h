@@ -1,0 +1,20 @@
+// Swept bodies that IFC++ builds wrongly or not at all, as bodies of plane faces. Knows IFC++, as
+// ifc_shapes.cpp does.
+#pragma once
+
+#include <functional>
+#include <string>
+
+class BuildingModel;
+class RepresentationConverter;
+
+namespace parvis::scene {
+
+/// Replaces swept disks (railings, pipes), which IFC++ gives no surface where they begin upright or shorter
+/// than 0.3 m, and tapered extrusions, whose end it takes for their beginning, by IfcFacetedBrep of the same
+/// number and style, before the geometry is converted. What stays as IFC++ builds it is passed to `complain`:
+/// the number of the entity, and what is wrong.
+void replace_sweeps(BuildingModel& building, RepresentationConverter& converter,
+                    const std::function<void(int, const std::string&)>& complain);
+
+}  // namespace parvis::scene
