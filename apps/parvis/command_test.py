@@ -802,6 +802,46 @@ class CurvedMirrors(BeforeAMirror):
             self.assertEqual(middle, right)
 
 
+class Plans(InAFolder):
+    """A drawing under a place, and the place as a plan."""
+
+    DRAWING = """0 SECTION|2 HEADER|9 $ACADVER|1 AC1015|9 $INSUNITS|70 UNIT|0 ENDSEC|0 SECTION|2 BLOCKS|0 BLOCK|8 0|2 BANC|70 0|10 0|20 0
+|0 LWPOLYLINE|8 0|90 4|70 1|10 0|20 0|10 2|20 0|10 2|20 0.5|10 0|20 0.5|0 ENDBLK|0 ENDSEC|0 SECTION|2 ENTITIES
+|0 LINE|5 A|8 BATI|10 1043000|20 6298000|11 1043010|21 6298000|0 INSERT|5 B|8 MOBILIER|2 BANC|10 1043004|20 6297995
+|0 RAY|5 C|8 BATI|10 0|20 0|11 1|21 0|0 ENDSEC|0 EOF"""
+
+    def write_scene(self, unit="6"):
+        groups = self.DRAWING.replace("\n", "").replace("UNIT", unit).split("|")
+        text = "".join("\n".join(group.split(" ", 1)) + "\n" for group in groups)
+        (self.folder / "square.dxf").write_text(text)
+        scene = self.folder / "square.xp"
+        scene.write_text('planDrawing(name="survey", file="square.dxf", blocks="BANC=bench")\n')
+        return scene
+
+    def test_a_plan_in_three_files(self):
+        scene = self.write_scene()
+        pdf, dxf, table = (self.folder / name for name in ("plan.pdf", "plan.dxf", "plan.csv"))
+        done = run("plan", scene, "--pdf", pdf, "--dxf", dxf, "--csv", table, "--title", "Place de la Liberté")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("1 RAY", done.stderr)  # what is not read is named
+        self.assertTrue(pdf.read_bytes().startswith(b"%PDF"))
+        self.assertIn("AcDbBlockReference", dxf.read_text("latin-1"))
+        rows = list(csv.DictReader(table.open(newline="")))
+        self.assertEqual([(row["kind"], row["x"], row["y"], row["width_m"]) for row in rows],
+                         [("bench", "1043005.000", "6297995.250", "2.000")])
+
+    def test_it_says_what_it_needs(self):
+        scene = self.write_scene()
+        self.assertEqual(run("plan", scene).returncode, 1)
+        far = run("plan", scene, "--pdf", self.folder / "plan.pdf", "--centre", "5000,0")
+        self.assertEqual(far.returncode, 1)
+        self.assertIn("another centre", far.stderr)
+        self.assertFalse((self.folder / "plan.pdf").exists())
+        without_unit = run("check", self.write_scene("0"))
+        self.assertEqual(without_unit.returncode, 1)
+        self.assertIn("unit=", without_unit.stderr)
+
+
 class BadModels(InAFolder):
     def test_damaged_glb(self):
         whole = glb(*triangle())

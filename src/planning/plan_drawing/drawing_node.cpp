@@ -6,6 +6,7 @@
 #include "formats/drawings/drawing_reader.h"
 #include "planning/plan_drawing/drawn_layer.h"
 #include "planning/plan_drawing/layer_choice.h"
+#include "planning/plan_drawing/placed_blocks.h"
 #include "planning/plan_drawing/placed_drawing.h"
 #include "planning/plan_drawing/plan_nodes.h"
 #include "scene/script/attribute.h"
@@ -34,6 +35,9 @@ scene::NodeSchema drawing_schema() {
                 "layers to show, and with a - to hide, beside those that the drawing shows: names with * and "
                 "?, separated by commas; \"-*, BATI, ARBRES\" shows two alone")
                .live(),
+           text("blocks",
+                "blocks that stand for objects, each with a kind: \"ARBRE*=tree, BANC=bench\"; plans and "
+                "tables list them"),
            number("line_width", "of lines that have none of their own")
                .in("m")
                .between(0.001, 10.0)
@@ -100,7 +104,9 @@ void build(const scene::Node& node, scene::SceneBuilder& builder, KnownDrawings&
   const Result<std::vector<bool>> shown =
       shown_layers(*placed.drawing, node.gives("layers") ? node.text("layers") : "");
   if (!shown) return builder.fail(shown.errors(), node.where_of("layers"));
-  placed.shows_layer = *shown;
+  const auto kinds = block_kinds(node.gives("blocks") ? node.text("blocks") : "");
+  if (!kinds) return builder.fail(kinds.errors(), node.where_of("blocks"));
+  placed.shows_layer = *shown, placed.block_kinds = *kinds;
   placed.called = node.gives("name") ? node.text("name") : node.file("file").stem().string();
   placed.origin = placed.drawing->local_origin();
   placed.world_from_plan = world_from_plan(node, placed.origin, builder);

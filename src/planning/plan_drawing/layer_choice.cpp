@@ -4,7 +4,6 @@
 #include "scene/data/name_pattern.h"
 
 namespace parvis::plan_drawing {
-namespace {
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t");
@@ -12,7 +11,7 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-std::vector<std::string> divided(const std::string& text) {
+std::vector<std::string> divided_at_commas(const std::string& text) {
   std::vector<std::string> words;
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t comma = std::min(text.find(',', at), text.size());
@@ -22,8 +21,6 @@ std::vector<std::string> divided(const std::string& text) {
   return words;
 }
 
-}  // namespace
-
 Result<std::vector<bool>> shown_layers(const formats::Drawing& drawing, const std::string& choice) {
   std::vector<bool> shown;
   std::vector<std::string> names;
@@ -32,7 +29,7 @@ Result<std::vector<bool>> shown_layers(const formats::Drawing& drawing, const st
     // Programs that draw dimensions keep their construction points there; it is never printed.
     shown.push_back(layer.is_shown() && layer.name != "Defpoints");
   }
-  for (const std::string& word : divided(choice)) {
+  for (const std::string& word : divided_at_commas(choice)) {
     const bool hides = word.starts_with('-');
     const std::string name = trimmed(hides || word.starts_with('+') ? word.substr(1) : word);
     bool is_known = false;

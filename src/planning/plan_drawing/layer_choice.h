@@ -9,6 +9,11 @@
 
 namespace parvis::plan_drawing {
 
+/// The text without spaces around it.
+std::string trimmed(const std::string& text);
+/// What stands between commas, trimmed, but for what is empty.
+std::vector<std::string> divided_at_commas(const std::string& text);
+
 /// Whether each layer is shown: as the drawing has it, changed by `choice`, names or patterns separated by
 /// commas, each hidden with a - before it ("-*, BATI, ARBRES": those two alone). Errors: a name that no layer
 /// has, with those that there are.

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "formats/drawings/drawing.h"
@@ -21,6 +22,8 @@ struct PlacedDrawing {
   glm::dvec3 origin{0.0};           ///< of the plan's frame, in the drawing's coordinates
   glm::mat4 world_from_plan{1.0f};  ///< of points minus `origin`, their heights left out
   std::vector<bool> shows_layer;    ///< each of the drawing's layers
+  /// Patterns of names of blocks, and the kinds of objects that they stand for (placed_blocks.h).
+  std::vector<std::pair<std::string, std::string>> block_kinds;
   bool is_visible = true;
 
   /// A point of the drawing in the world.

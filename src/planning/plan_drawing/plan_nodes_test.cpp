@@ -8,7 +8,7 @@
 #include "graphics/reference/tracer.h"
 #include "graphics/render/frame_views.h"
 #include "graphics/render/test_renderer.h"
-#include "planning/plan_drawing/placed_drawing.h"
+#include "planning/plan_drawing/placed_blocks.h"
 #include "planning/plan_drawing/room.h"
 #include "planning/plan_drawing/text_outlines.h"
 #include "scene/data/test_scene.h"
@@ -99,6 +99,41 @@ TEST_F(PlanNodes, LayersAreShownAndHiddenWhileTheSceneRuns) {
   EXPECT_EQ(loaded->scene.items<PlacedDrawing>().at(0).shows_layer, (std::vector<bool>{false, true}));
   EXPECT_NE(set("BAT").find("BATI"), std::string::npos) << "names the layers that there are";
   EXPECT_EQ(shown(), "survey AIDE;") << "and changes nothing";
+}
+
+TEST_F(PlanNodes, BlocksStandForObjectsByATable) {
+  TestDrawing file;
+  file.blocks =
+      "0 BLOCK|8 0|2 BANC|70 0|10 0|20 0|0 LWPOLYLINE|8 0|90 4|70 1|10 0|20 0|10 2|20 0|10 2|20 0.5|10 0|20 "
+      "0.5|0 "
+      "ENDBLK|0 BLOCK|8 0|2 ARBRE_GRILLE|70 0|10 0|20 0|0 CIRCLE|8 0|10 0|20 0|40 1|0 ENDBLK";
+  file.entities =
+      "0 INSERT|5 A|8 MOBILIER|2 BANC|10 10|20 5|50 90|0 INSERT|5 B|8 ARBRES|66 1|2 ARBRE_GRILLE|10 3|20 "
+      "4|41 2.5|42 2.5|0 "
+      "ATTRIB|8 0|10 0|20 0|40 1|1 A8|2 NUM|0 ATTRIB|8 0|10 0|20 0|40 1|1 11.5|2 HAUTEUR_M|0 SEQEND|8 0|0 "
+      "INSERT|5 C|8 "
+      "ARBRES|2 UNKNOWN|10 0|20 0";
+  folder_.write("square.dxf", file.text());
+  const scene::Scene scene = scene_of(
+      "planDrawing(name=\"survey\", file=\"square.dxf\", position=\"100 0 0\", heading_deg=90, "
+      "blocks=\"ARBRE*=tree_lime, BANC = bench\")");
+  const std::vector<design::PlacedObject> objects = placed_blocks(scene.items<PlacedDrawing>().at(0));
+  ASSERT_EQ(objects.size(), 2u);
+  const design::PlacedObject &bench = objects[0], &tree = objects[1];
+  EXPECT_EQ(bench.kind, "bench");
+  EXPECT_EQ(bench.name, "bench_1");
+  EXPECT_EQ(bench.design, "survey");
+  // In the drawing it reaches from (9.5, 5) to (10, 7); the drawing is turned clockwise by 90 degrees.
+  EXPECT_NEAR(bench.position.x, 106.0, 1e-4);
+  EXPECT_NEAR(bench.position.y, -9.75, 1e-4);
+  EXPECT_NEAR(bench.heading_deg, 0.0, 1e-3);
+  EXPECT_NEAR(bench.size_m.x, 2.0, 1e-6);
+  EXPECT_NEAR(bench.size_m.y, 0.5, 1e-6);
+  EXPECT_EQ(tree.name, "A8");
+  EXPECT_TRUE(tree.is_round);
+  EXPECT_NEAR(tree.size_m.x, 5.0, 0.002);
+  EXPECT_NEAR(tree.size_m.z, 11.5, 1e-9);
+  EXPECT_TRUE(holds(errors_of("planDrawing(file=\"square.dxf\", blocks=\"BANC\")"), "NAME=KIND"));
 }
 
 TEST_F(PlanNodes, ADrawingWithoutAUnitIsRefusedUntilTheScriptSaysIt) {

@@ -93,10 +93,10 @@ class Page {
   }
   /// On its base line; made smaller where it is wider than `max_width_mm`.
   void text(const std::string& text, glm::dvec2 at, double height_mm, double max_width_mm = 1e3,
-            bool is_bold = false) const {
+            bool is_bold = false, const Colour& colour = black) const {
     const double width = text_width(text, height_mm, is_bold);
     if (width > max_width_mm) font(height_mm * max_width_mm / width, is_bold);
-    set(black);
+    set(colour);
     cairo_move_to(context(), at.x, at.y);
     cairo_show_text(context(), text.c_str());
   }
@@ -172,6 +172,7 @@ class PlanPainter {
          {PlanLayer::drawing, PlanLayer::road, PlanLayer::plant, PlanLayer::thing, PlanLayer::wall})
       for (const PlanLine& line : plan.lines)
         if (line.layer == layer) draw(line);
+    for (const PlanText& text : plan.texts) draw(text);
     for (const PlanTree& tree : plan.trees) draw(tree);
     for (const design::PlacedObject& object : plan.placed) draw(object);
   }
@@ -241,9 +242,36 @@ class PlanPainter {
     cairo_line_to(page_.context(), end.x, end.y);
   }
 
-  void draw(const PlanTree& tree) {
-    const glm::dvec2 at = view_.on_page(glm::dvec2(tree.position));
-    const double radius = tree.crown_radius_m * 1000.0 / view_.scale;
+  void draw(const PlanText& text) {
+    constexpr double min_mm = 0.8, max_mm = 50.0;  // that can be read, and that is no title of a sheet
+    const glm::dvec2 at = view_.on_page(text.position);
+    const double height_mm = text.height_m * 1000.0 / view_.scale;
+    if (!view_.shows(at - 1.0, at + 1.0) || height_mm < min_mm || height_mm > max_mm) return;
+    std::vector<std::string> lines(1);
+    for (const char c : text.text)
+      if (c == '\n')
+        lines.emplace_back();
+      else
+        lines.back() += c;
+    constexpr double spacing = 5.0 / 3.0;  // of the height
+    const double height = height_mm * (1.0 + spacing * double(lines.size() - 1));
+    cairo_save(page_.context());
+    cairo_translate(page_.context(), at.x, at.y);
+    cairo_rotate(page_.context(), -text.angle_deg * std::numbers::pi / 180.0);
+    double base = height_mm - height * (1.0 - text.anchor.y);
+    for (const std::string& line : lines) {
+      page_.text(line, {-text.anchor.x * page_.text_width(line, height_mm), base}, height_mm, 1e3, false,
+                 grey);
+      base += spacing * height_mm;
+    }
+    cairo_restore(page_.context());
+  }
+
+  void draw(const PlanTree& tree) { draw_tree(tree.position, tree.crown_radius_m); }
+
+  void draw_tree(const glm::dvec3& position, double crown_radius_m) {
+    const glm::dvec2 at = view_.on_page(glm::dvec2(position));
+    const double radius = crown_radius_m * 1000.0 / view_.scale;
     if (!view_.shows(at - radius, at + radius)) return;
     ++trees_;
     cairo_new_path(page_.context());
@@ -255,6 +283,7 @@ class PlanPainter {
   }
 
   void draw(const design::PlacedObject& object) {
+    if (object.kind.starts_with("tree")) return draw_tree(object.position, 0.5 * object.size_m.x);
     const std::vector<glm::dvec2> points = on_page(object.outline);
     if (points.size() < 3 || !is_shown(points)) return;
     const glm::vec3 srgb = glm::clamp(srgb_from_linear(object.colour), 0.0f, 1.0f);

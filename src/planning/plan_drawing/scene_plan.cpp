@@ -8,7 +8,7 @@
 #include "formats/terrain/city_surfaces.h"
 #include "formats/terrain/place_heights.h"
 #include "life/vegetation/scene_plant.h"
-#include "planning/plan_drawing/placed_drawing.h"
+#include "planning/plan_drawing/placed_blocks.h"
 #include "planning/plan_drawing/plan_lines.h"
 #include "scene/data/surroundings.h"
 
@@ -125,16 +125,27 @@ void add_plants(const scene::Scene& scene, ScenePlan& plan) {
   }
 }
 
-/// The lines of drawings under the place, on the layers that are shown.
+/// Lines, texts and objects of drawings under the place, on the layers that are shown.
 void add_drawings(const scene::Scene& scene, ScenePlan& plan) {
   for (const PlacedDrawing& placed : scene.items<PlacedDrawing>()) {
     if (!placed.is_visible) continue;
     for (const formats::DrawingLine& line : placed.drawing->lines) {
       if (!placed.shows_layer[std::size_t(line.layer)]) continue;
-      PlanLine drawn{PlanLayer::drawing, {}, linear_from_srgb8(line.colour.x, line.colour.y, line.colour.z)};
+      PlanLine drawn{.layer = PlanLayer::drawing,
+                     .points = {},
+                     .colour = linear_from_srgb8(line.colour.x, line.colour.y, line.colour.z),
+                     .width_m = line.width_m};
       for (const glm::dvec3& point : line.points) drawn.points.emplace_back(placed.in_world(point));
       plan.lines.push_back(std::move(drawn));
     }
+    const float scale = glm::length(glm::vec3(placed.world_from_plan[0]));
+    const glm::vec4& x = placed.world_from_plan[0];
+    const double turn_deg = glm::degrees(std::atan2(double(x.y), double(x.x)));
+    for (const formats::DrawingText& text : placed.drawing->texts)
+      if (placed.shows_layer[std::size_t(text.layer)])
+        plan.texts.push_back({text.text, glm::dvec2(glm::vec2(placed.in_world(text.position))),
+                              double(scale) * text.height_m, text.angle_deg + turn_deg, text.anchor});
+    for (design::PlacedObject& object : placed_blocks(placed)) plan.placed.push_back(std::move(object));
   }
 }
 

@@ -25,6 +25,14 @@ struct PlanLine {
   bool is_closed() const { return points.size() > 3 && points.front() == points.back(); }
 };
 
+/// A text of a drawing.
+struct PlanText {
+  std::string text;  ///< UTF-8; lines separated by \n
+  glm::dvec2 position{0.0};
+  double height_m = 0.5, angle_deg = 0.0;
+  glm::dvec2 anchor{0.0};  ///< as DrawingText::anchor
+};
+
 /// A tree at its foot.
 struct PlanTree {
   std::string name;
@@ -37,7 +45,8 @@ struct ScenePlan {
   glm::dvec3 origin{0.0};  ///< map coordinates of the frame's origin; zero: the scene is not on a map
   std::vector<PlanLine> lines;
   std::vector<PlanTree> trees;
-  std::vector<design::PlacedObject> placed;  ///< of designs
+  std::vector<PlanText> texts;
+  std::vector<design::PlacedObject> placed;  ///< of designs, and what blocks of drawings stand for
   std::vector<std::string> left_out;         ///< what a plan cannot hold, for its reader
 
   /// The middle of what is placed, or of everything.
