@@ -1,5 +1,9 @@
 // parvis check: is a scene right? And the reference of all nodes.
+#include <set>
+
+#include "base/content_hash.h"
 #include "commands.h"
+#include "formats/readers/account_json.h"
 #include "life/traffic/demand.h"
 #include "life/vegetation/scene_plant.h"
 #include "scene/data/triangle_kinds.h"
@@ -13,7 +17,7 @@ namespace {
 struct Arguments {
   std::filesystem::path scene;
   std::vector<std::filesystem::path> data;
-  bool wants_reference = false, wants_schema = false, wants_triangles = false;
+  bool wants_reference = false, wants_schema = false, wants_triangles = false, wants_json = false;
 };
 
 /// What --scenario and --tour can name.
@@ -36,6 +40,50 @@ void print_triangles(const scene::Scene& scene) {
                vegetation::scene_plants(scene).size());
 }
 
+/// What a scenario can change of a scene; models count as such, not by their content.
+std::uint64_t state_of(const scene::Scene& scene) {
+  ContentHash hash;
+  for (const scene::Object& object : scene.objects) {
+    hash.add(object.is_visible);
+    if (!object.is_visible) continue;
+    hash.add(object.model.get()), hash.add(object.paint.get());
+    hash.add(object.world_from_model), hash.add(object.played.speed);
+  }
+  for (const scene::NamedCamera& camera : scene.cameras) hash.add(camera.camera.world_from_camera);
+  for (const glm::vec3 v : {scene.sun.direction_to_sun, scene.sun.irradiance}) hash.add(v);
+  for (const float v : {scene.sky.intensity, scene.sky.heading, scene.haze_per_m, scene.exposure})
+    hash.add(v);
+  hash.add(scene.sky.picture.pixels);
+  scene.room_data.hash(hash, [](scene::DataRole) { return true; });
+  return hash.value();
+}
+
+/// Warns of scenarios that change nothing: a planner would show the same picture twice.
+Status check_scenarios(house::Play& play) {
+  const std::string begins = play.live().scenario();
+  if (Status status = play.live().choose(play.scene, ""); !status) return status;
+  const std::uint64_t base = state_of(play.scene);
+  for (const scene::Node* scenario : play.live().scenarios()) {
+    if (Status status = play.live().choose(play.scene, scenario->text("name")); !status) return status;
+    if (state_of(play.scene) == base)
+      fmt::print(stderr, "warning: {}\n",
+                 to_string(error_at(scenario->where, "scenario \"{}\" changes nothing that is to be seen",
+                                    scenario->text("name"))));
+  }
+  return play.live().choose(play.scene, begins);
+}
+
+/// Of each model file once, in the order of the scene's objects.
+std::vector<const scene::FileAccount*> accounts_of(const scene::Scene& scene) {
+  std::vector<const scene::FileAccount*> accounts;
+  std::set<const scene::FileAccount*> known;
+  for (const scene::Object& object : scene.objects)
+    if (const scene::FileAccount* account = object.model->account.get();
+        account && known.insert(account).second)
+      accounts.push_back(account);
+  return accounts;
+}
+
 Status check(Arguments& arguments) {
   const scene::NodeRegistry& registry = house::node_registry();
   if (arguments.wants_reference) {
@@ -49,12 +97,19 @@ Status check(Arguments& arguments) {
   if (arguments.scene.empty()) return error("name a scene, or ask for --reference or --schema");
   if (Status status = describe_bare_file(arguments.scene, arguments.data); !status) return status.errors();
   // As every command opens it, so that all warn of the same.
-  const Result<house::Play> play = house::open_play(house::all_rooms(), arguments.scene, arguments.data);
+  Result<house::Play> play = house::open_play(house::all_rooms(), arguments.scene, arguments.data);
   if (!play) return play.errors();
+  if (Status status = check_scenarios(*play); !status) return status;
   const scene::Scene& scene = play->scene;
+  const std::vector<const scene::FileAccount*> accounts = accounts_of(scene);
+  if (arguments.wants_json) {
+    fmt::print("{}\n", formats::accounts_json(accounts));
+    return Done{};
+  }
   fmt::print("{}: right. {} objects, {} triangles that stand still, {} lanes, {} vehicles, {} cameras\n",
              arguments.scene.string(), scene.objects.size(), scene.static_triangle_count(),
              scene.roads.lanes.size(), scene.data<traffic::TrafficDemand>().vehicles, scene.cameras.size());
+  for (const scene::FileAccount* account : accounts) fmt::print("{}", account->text());
   if (arguments.wants_triangles) print_triangles(scene);
   print_states(play->live());
   return Done{};
@@ -74,6 +129,9 @@ void add_check(CLI::App& app, Chosen& chosen) {
                     "Print all nodes with their attributes and messages as JSON");
   command->add_flag("--triangles", arguments->wants_triangles,
                     "Print how many triangles each kind of object has");
+  command->add_flag(
+      "--json", arguments->wants_json,
+      "Print the account of each model file as JSON: what it holds, what was used, changed, left out");
   command->footer("Example: parvis check scenes/delft.xp --data ../shared/data");
   command->callback([arguments, &chosen] { chosen = [arguments] { return check(*arguments); }; });
 }

@@ -12,21 +12,25 @@ struct Arguments {
   bool only_checks = false;
 };
 
+Status format_one(const std::filesystem::path& script, bool only_checks) {
+  const Result<std::string> text = read_file(script);
+  if (!text) return text.errors();
+  const Result<scene::ScriptNode> tree = scene::parse_script_file(*text, script.string());
+  if (!tree) return tree.errors();
+  const std::string formatted = scene::format_script(*tree);
+  if (formatted == *text) return Done{};
+  if (only_checks)
+    return error_at({script.string()}, "is not formatted; run parvis format {}", script.string());
+  // The user may name a link: it is the script that it points to.
+  return write_file(std::filesystem::weakly_canonical(script), formatted);
+}
+
 Status format(const Arguments& arguments) {
   Errors errors;
-  for (const std::filesystem::path& script : arguments.scripts) {
-    const Result<std::string> text = read_file(script);
-    if (!text) return text.errors();
-    const Result<scene::ScriptNode> tree = scene::parse_script_file(*text, script.string());
-    if (!tree) return tree.errors();
-    const std::string formatted = scene::format_script(*tree);
-    if (formatted == *text) continue;
-    if (arguments.only_checks)
-      errors.push_back(
-          error_at({script.string()}, "is not formatted; run parvis format {}", script.string()));
-    else if (Status status = write_file(std::filesystem::weakly_canonical(script), formatted); !status)
-      return status;  // the user named a link: it is the script that it points to
-  }
+  for (const std::filesystem::path& script :
+       arguments.scripts)  // one that is broken keeps none of the others
+    if (const Status status = format_one(script, arguments.only_checks); !status)
+      errors.insert(errors.end(), status.errors().begin(), status.errors().end());
   if (!errors.empty()) return errors;
   return Done{};
 }

@@ -32,11 +32,30 @@ int failed(const std::string& message) { return failed(message.c_str()); }
 constexpr const char* no_memory =
     "parvis: there is not enough memory for this; use a smaller scene or --size\n";
 
+constexpr const char* no_thread =
+    "parvis: the system gives no thread; raise the limits of memory and processes (ulimit -v, ulimit -u)\n";
+
 constexpr const char* no_output = "parvis: the standard output cannot be written; is its disk full?\n";
 
 /// Ends the program where memory ends: exceptions must not pass the graphics driver, which holds locks, nor
 /// destructors of libraries that allocate.
 void end_without_memory() { parvis::remove_partial_files_and_end(no_memory); }
+
+/// Ends the program where an exception may go no further, as one of a library's own threads: the system gave
+/// no memory or no thread.
+void end_without_thread() {
+  try {
+    if (const std::exception_ptr problem = std::current_exception()) std::rethrow_exception(problem);
+  } catch (const std::bad_alloc&) {
+    parvis::remove_partial_files_and_end(no_memory);
+  } catch (const std::system_error&) {
+    parvis::remove_partial_files_and_end(no_thread);
+  } catch (const std::runtime_error&) {  // of oneTBB, which cannot make its threads
+    parvis::remove_partial_files_and_end(no_thread);
+  } catch (...) {
+  }
+  std::abort();  // a mistake of ours
+}
 
 /// Takes the places of standard streams that the caller has closed, so that no file that is opened later gets
 /// what is printed. Writing to such a stream fails, as on a full disk.
@@ -82,6 +101,7 @@ int run(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  std::set_terminate(end_without_thread);
   try {
     return run(count, arguments);
   } catch (const std::bad_alloc&) {  // of a library that throws it by itself

@@ -54,6 +54,37 @@ TEST(ImageIo, ColourBehindGlassIsNotPremultiplied) {
   EXPECT_EQ(again->pixels, picture.pixels);
 }
 
+/// A Radiance picture, two wide and one high, or turned: 1 0.5 0.25 and 2 4 8 in the order of the file.
+std::string radiance(const std::string& lines, const std::string& order) {
+  const std::string pixels{char(128), 64, 32, char(129), 32, 64, char(128), char(132)};
+  return "#?RADIANCE\n" + lines + "FORMAT=32-bit_rle_rgbe\n\n" + order + "\n" + pixels;
+}
+
+TEST(ImageIo, RadianceIsThePixelByAllExposuresInTheOrderOfTheHeader) {
+  const TestFolder folder;
+  const auto read = [&](const std::string& lines, const std::string& order) {
+    const Result<ImageF> image = read_image_float(folder.write("sky.hdr", radiance(lines, order)));
+    EXPECT_TRUE(image) << to_string(image.errors());
+    return image ? *image : ImageF(1, 1, 3);
+  };
+  const ImageF plain = read("", "-Y 1 +X 2");
+  ASSERT_EQ(plain.width, 2);
+  EXPECT_NEAR(plain.at(0, 0)[0], 1.0f, 0.01f);
+  EXPECT_NEAR(plain.at(1, 0)[2], 8.0f, 0.1f);
+  const ImageF exposed = read("EXPOSURE=0.5\nEXPOSURE= 0.5\nCOLORCORR= 1 2 1\n", "-Y 1 +X 2");
+  EXPECT_NEAR(exposed.at(0, 0)[0], 4.0f * plain.at(0, 0)[0], 1e-5f);
+  EXPECT_NEAR(exposed.at(0, 0)[1], 2.0f * plain.at(0, 0)[1], 1e-5f);
+  EXPECT_EQ(read("EXPOSURE=0\nEXPOSURE=nan\nEXPOSURE=words\n", "-Y 1 +X 2").pixels, plain.pixels);
+  const ImageF mirrored = read("", "-Y 1 -X 2");
+  EXPECT_EQ(mirrored.at(1, 0)[0], plain.at(0, 0)[0]);
+  const ImageF upward = read("", "+Y 2 +X 1");
+  ASSERT_EQ(upward.height, 2);
+  EXPECT_EQ(upward.at(0, 1)[0], plain.at(0, 0)[0]) << "the first row is the lowest";
+  const ImageF columns = read("", "+X 2 -Y 1");
+  ASSERT_EQ(columns.width, 2);
+  EXPECT_EQ(columns.at(1, 0)[2], plain.at(1, 0)[2]);
+}
+
 TEST(ImageIo, AnEvenJpegComesBackNearly) {
   const TestFolder folder;
   ASSERT_TRUE(write_image(folder.path() / "p.jpg", Image8(32, 16, 3, 120)));

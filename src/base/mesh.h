@@ -11,16 +11,22 @@
 
 namespace parvis {
 
-/// Triangles, counter-clockwise seen from outside. Every array but `indices` has one entry a vertex.
+/// Triangles, counter-clockwise seen from outside. Every array but `indices` has one entry a vertex; the last
+/// two may be empty.
 struct Mesh {
   std::vector<glm::vec3> positions;  ///< metres
   std::vector<glm::vec3> normals;    ///< unit length
   std::vector<glm::vec2> uvs;        ///< v downward from the picture's top, as glTF has it
   std::vector<std::uint32_t> indices;
+  std::vector<glm::vec2> second_uvs;  ///< for textures that lie on the mesh in another way than the first
+  std::vector<glm::vec4> colours;     ///< linear, with alpha: they multiply the material's; empty: white
 
   std::size_t triangle_count() const { return indices.size() / 3; }
   Bounds bounds() const;
 };
+
+/// Appends one vertex of `from` with all that it has; `to` has the arrays that `from` has.
+void append_vertex(Mesh& to, const Mesh& from, std::size_t vertex);
 
 /// Appends `other`, transformed, to `mesh`.
 void append(Mesh& mesh, const Mesh& other, const glm::mat4& mesh_from_other = glm::mat4(1.0f));

@@ -13,6 +13,7 @@
 #include "base/colour.h"
 #include "base/memory_budget.h"
 #include "base/picture_decoder.h"
+#include "base/radiance_header.h"
 
 namespace parvis {
 namespace {
@@ -138,6 +139,24 @@ bool read_pixels(OIIO::ImageInput& input, T* out, int channels, T opaque) {
   return true;
 }
 
+/// Puts the pixels of a Radiance picture where its header says that they stand.
+template <class T>
+void move_pixels(const RadianceHeader& header, const std::vector<T>& from, const OIIO::ImageSpec& spec,
+                 int channels, T* to) {
+  const int lines = spec.height, along = spec.width;
+  const int width = header.is_transposed ? lines : along, height = header.is_transposed ? along : lines;
+  for (int line = 0; line < lines; ++line)
+    for (int i = 0; i < along; ++i) {
+      int x = header.is_transposed ? line : i, y = header.is_transposed ? i : line;
+      if (header.starts_right) x = width - 1 - x;
+      if (header.starts_below) y = height - 1 - y;
+      const std::size_t source = std::size_t(line) * std::size_t(along) + std::size_t(i),
+                        target = std::size_t(y) * std::size_t(width) + std::size_t(x);
+      std::copy_n(from.data() + source * std::size_t(channels), channels,
+                  to + target * std::size_t(channels));
+    }
+}
+
 template <class T>
 Result<std::string> encode(const BasicImage<T>& image, const std::string& name) {
   const PictureFormat* format = picture_format_to_write(name);
@@ -195,10 +214,18 @@ Status decode_image(std::span<const std::uint8_t> bytes, const std::string& name
     return status;
   const bool is_srgb = is_float && spec.format.basesize() == 1;
   const std::size_t values = std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(channels);
-  const Result<T*> pixels = pixels_for(spec.width, spec.height, channels);
+  const bool is_radiance = picture_format_of(bytes, name)->name == "hdr"sv;
+  const RadianceHeader header = is_radiance ? radiance_header(bytes) : RadianceHeader{};
+  const Result<T*> pixels = header.is_transposed ? pixels_for(spec.height, spec.width, channels)
+                                                 : pixels_for(spec.width, spec.height, channels);
   if (!pixels) return pixels.errors();
-  if (!read_pixels(input, *pixels, channels, T(is_float ? 1 : 255)))
+  std::vector<T> in_file_order(header.moves_pixels() ? values : 0);
+  if (!read_pixels(input, header.moves_pixels() ? in_file_order.data() : *pixels, channels,
+                   T(is_float ? 1 : 255)))
     return error("{}: the picture is damaged or cut short ({})", name, input.geterror());
+  if (header.moves_pixels()) move_pixels(header, in_file_order, spec, channels, *pixels);
+  if constexpr (is_float)
+    for (std::size_t i = 0; is_radiance && i < values; ++i) (*pixels)[i] *= header.scale[i % 3];
   if constexpr (is_float)
     if (is_srgb)
       for (float& value : std::span(*pixels, values)) value = linear_from_srgb(value);

@@ -170,7 +170,7 @@ void Visit::step_halted() {
 void Visit::take_picture() {
   const Result<std::filesystem::path> file = write_numbered(
       pictures_.folder, pictures_.name,
-      [this](const std::filesystem::path& path) { return write_image(path, stage_.picture()); });
+      [this](const std::filesystem::path& path) { return write_image(path, stage_.whole_picture()); });
   if (file)
     notice("picture " + file->string());
   else

@@ -56,7 +56,7 @@ class TimedScene {
 /// The facade's surfaces with one texture on all: an ordinary material, which is lit, too.
 scene::Scene lit_scene(const PackedFacade& facade) {
   auto model = std::make_shared<scene::Model>();
-  model->textures.push_back({"plain", plain_texture(), true, true});
+  model->textures.push_back({"plain", plain_texture()});
   scene::Material material;
   material.base_colour = glm::vec3(0.0f), material.metallic = 1.0f, material.roughness = 1.0f;
   material.emission = glm::vec3(1.0f), material.emission_texture = 0, material.is_double_sided = true;

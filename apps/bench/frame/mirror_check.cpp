@@ -89,7 +89,7 @@ scene::Scene mirror_scene(Mesh mirror, float room_half_m) {
   wall.emission = glm::vec3(1.0f);
   wall.emission_texture = 0;
   auto room = std::make_shared<scene::Model>();
-  room->textures.push_back({"walls", wall_picture(), true, false});
+  room->textures.push_back({"walls", wall_picture(), true, scene::Wrap::clamp, scene::Wrap::clamp});
   room->materials = {wall};
   room->parts = {{"room", cube(room_half_m, true), 0, 0, false}};
 

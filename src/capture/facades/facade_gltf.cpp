@@ -70,7 +70,8 @@ PackedPhoto photo_of(const Json& json) {
 scene::Model model_with(const PackedFacade& facade, BakedTexture baked, const std::string& name) {
   scene::Model model;
   model.name = name;
-  model.textures.push_back({"photographs", std::move(baked.picture), true, false});
+  model.textures.push_back(
+      {"photographs", std::move(baked.picture), true, scene::Wrap::clamp, scene::Wrap::clamp});
   // Light that was recorded: it shines by itself, and nothing lights it again.
   scene::Material material;
   material.name = "photographs";

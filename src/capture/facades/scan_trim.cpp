@@ -125,8 +125,7 @@ Mesh kept_part(const Mesh& mesh, const JoinedTriangles& joined, const std::vecto
     for (const std::uint32_t corner : joined.triangles[t]) {
       if (number[corner] == ~0u) {
         number[corner] = std::uint32_t(kept.positions.size());
-        kept.positions.push_back(mesh.positions[corner]), kept.normals.push_back(mesh.normals[corner]);
-        kept.uvs.push_back(mesh.uvs[corner]);
+        append_vertex(kept, mesh, corner);
       }
       kept.indices.push_back(number[corner]);
     }

@@ -109,7 +109,8 @@ scene::Texture texture_of(ImageF premultiplied, std::string name) {
     for (std::size_t c = 0; c < 3; ++c)
       premultiplied.pixels[i + c] /= std::max(premultiplied.pixels[i + 3], 1e-4f);
   scene::Texture texture;
-  texture.name = std::move(name), texture.image = srgb8_from_linear(premultiplied), texture.repeats = false;
+  texture.name = std::move(name), texture.image = srgb8_from_linear(premultiplied),
+  texture.set_repeats(false);
   return texture;
 }
 

@@ -75,10 +75,10 @@ bool is_there(const scene::Model& model, const scene::Material& material, glm::v
   const scene::Texture& texture = model.textures[std::size_t(material.base_colour_texture)];
   const Image8& image = texture.image;
   uv = glm::vec2(material.texture_from_mesh_uv * glm::vec3(uv, 1.0f));
-  uv = texture.repeats ? glm::fract(uv) : glm::clamp(uv, 0.0f, 1.0f);
+  uv = {scene::wrapped(uv.x, texture.wrap_u), scene::wrapped(uv.y, texture.wrap_v)};
   const int x = std::min(int(uv.x * float(image.width)), image.width - 1),
             y = std::min(int(uv.y * float(image.height)), image.height - 1);
-  return material.alpha * float(image.at(x, y)[3]) >= 0.5f * 255.0f;
+  return material.alpha * float(image.at(x, y)[3]) >= material.alpha_cutoff * 255.0f;
 }
 
 }  // namespace

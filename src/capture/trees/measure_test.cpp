@@ -109,7 +109,7 @@ TEST(Measure, ATreeEndsWithinACell) {
 TEST(Measure, HolesOfLeavesAreNotTheTree) {
   scene::Model model;
   scene::Texture texture;
-  texture.image = Image8(2, 2, 4, 255), texture.repeats = false;
+  texture.image = Image8(2, 2, 4, 255), texture.set_repeats(false);
   for (const int x : {0, 1}) texture.image.at(x, 0)[3] = 0;  // the upper half is a hole
   model.textures.push_back(texture);
   scene::Material leaf;

@@ -205,7 +205,7 @@ class Assembly {
     for (const scene::Texture* source : sources_) {
       width = std::max(width, std::min(source->image.width, max_side));
       height = std::max(height, std::min(source->image.height, max_side));
-      repeats |= source->repeats;
+      repeats |= source->wrap_u != scene::Wrap::clamp || source->wrap_v != scene::Wrap::clamp;
     }
     if (const Status status = check_memory(
             checked_product({bytes_per_pixel, std::uint64_t(width), std::uint64_t(height), sources_.size()}),
@@ -217,9 +217,9 @@ class Assembly {
     parallel_for(sources_.size(), [&](std::size_t i) {
       made_.pictures[i] = *sources_[i];
       made_.pictures[i].image = resized(sources_[i]->image, width, height);
-      made_.pictures[i].repeats = repeats, made_.pictures[i].is_srgb = true;
+      made_.pictures[i].set_repeats(repeats), made_.pictures[i].is_srgb = true;
     });
-    if (made_.pictures.empty()) made_.pictures.push_back({"none", Image8(1, 1, 4, 255), true, true});
+    if (made_.pictures.empty()) made_.pictures.push_back({"none", Image8(1, 1, 4, 255)});
     return Done{};
   }
 

@@ -28,7 +28,7 @@ gl::Texture table_texture(std::vector<glm::vec4> table) {
 
 gl::Texture picture_array(const std::vector<scene::Texture>& pictures) {
   std::vector<std::vector<Image8>> levels(pictures.size());
-  parallel_for(levels.size(), [&](std::size_t i) { levels[i] = scene::mip_levels(pictures[i], false); });
+  parallel_for(levels.size(), [&](std::size_t i) { levels[i] = scene::mip_levels(pictures[i], 0); });
   const Image8& first = pictures.front().image;
   gl::Texture array = gl::Texture::create(GLenum(GL_TEXTURE_2D_ARRAY));
   const GLuint name = array.name();
@@ -41,7 +41,7 @@ gl::Texture picture_array(const std::vector<scene::Texture>& pictures) {
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   if (render::has_fast_anisotropy()) glTextureParameterf(name, GL_TEXTURE_MAX_ANISOTROPY, 16.0f);
-  const GLint wrap = pictures.front().repeats ? GL_REPEAT : GL_CLAMP_TO_EDGE;
+  const GLint wrap = pictures.front().wrap_u == scene::Wrap::repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
   glTextureParameteri(name, GL_TEXTURE_WRAP_S, wrap);
   glTextureParameteri(name, GL_TEXTURE_WRAP_T, wrap);
   return array;

@@ -38,7 +38,7 @@ std::shared_ptr<Model> painted(Mesh mesh, glm::u8vec3 colour, const std::string&
   for (int y = 0; y < 8; ++y)
     for (int x = 0; x < 8; ++x)
       for (int c = 0; c < 3; ++c) image.at(x, y)[c] = colour[c];
-  model->textures.push_back({"paint", image, true, true});
+  model->textures.push_back({"paint", image});
   return model;
 }
 

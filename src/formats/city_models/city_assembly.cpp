@@ -109,7 +109,8 @@ int CityAssembly::add_material(const CityMaterial& m) {
 }
 
 int CityAssembly::add_picture(const std::string& file, bool repeats) {
-  pictures_.push_back({.name = file, .image = {}, .is_srgb = true, .repeats = repeats});
+  pictures_.push_back({.name = file, .image = {}});
+  pictures_.back().set_repeats(repeats);
   return int(pictures_.size()) - 1;
 }
 

@@ -6,32 +6,37 @@
 #include "formats/city_models/osm_reader.h"
 #include "formats/readers/content.h"
 #include "formats/readers/isolated_reader.h"
+#include "formats/readers/plain_account.h"
 
 namespace parvis::city_models {
 namespace {
+using formats::FileContent;
 using formats::ModelReading;
-using scene::Model;
 namespace fs = std::filesystem;
 
-Result<Model> read_json(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  return scene::read_city_model(file, warnings, reading.max_detail, reading.place_deg, reading.map);
+Result<FileContent> read_json(const fs::path& file, const ModelReading& reading, Errors& warnings) {
+  return formats::with_plain_account(
+      "CityJSON", scene::read_city_model(file, warnings, reading.max_detail, reading.place_deg, reading.map));
 }
 
-Result<Model> read_gml(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  return scene::read_city_gml(file, warnings, reading.max_detail, reading.place_deg, reading.map);
+Result<FileContent> read_gml(const fs::path& file, const ModelReading& reading, Errors& warnings) {
+  return formats::with_plain_account(
+      "CityGML", scene::read_city_gml(file, warnings, reading.max_detail, reading.place_deg, reading.map));
 }
 
-Result<Model> read_map(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  return scene::read_osm(file, warnings, reading.ground, reading.place_deg, reading.map);
+Result<FileContent> read_map(const fs::path& file, const ModelReading& reading, Errors& warnings) {
+  return formats::with_plain_account(
+      "OpenStreetMap", scene::read_osm(file, warnings, reading.ground, reading.place_deg, reading.map));
 }
 
 /// On a ground, of which only the program knows the heights, the map is read by a child and assembled here.
-Result<Model> read_map_on_ground(const fs::path& file, const ModelReading& reading, Errors& warnings) {
+Result<FileContent> read_map_on_ground(const fs::path& file, const ModelReading& reading, Errors& warnings) {
   static const formats::ReadModel alone = formats::isolated<read_map>();
   if (!reading.ground) return alone(file, reading, warnings);
   const Result<scene::OsmFile> osm = scene::read_osm_file_isolated(file, reading.map, warnings);
   if (!osm) return osm.errors();
-  return scene::model_of_osm(*osm, file, warnings, reading.ground, reading.place_deg);
+  return formats::with_plain_account(
+      "OpenStreetMap", scene::model_of_osm(*osm, file, warnings, reading.ground, reading.place_deg));
 }
 
 }  // namespace

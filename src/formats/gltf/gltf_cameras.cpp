@@ -1,6 +1,7 @@
 #include "formats/gltf/gltf_cameras.h"
 
 #include "base/files.h"
+#include "formats/gltf/gltf_transform.h"
 
 namespace parvis::scene {
 
@@ -13,16 +14,12 @@ Json gltf_camera(const std::string& name, const Camera& camera) {
 }
 
 Json gltf_camera_node(const std::string& name, const Camera& camera, std::size_t index) {
-  Json matrix = Json::array();
-  for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row) matrix.push_back(camera.world_from_camera[column][row]);
-  return {{"name", name}, {"camera", index}, {"matrix", matrix}};
+  return {{"name", name}, {"camera", index}, {"matrix", gltf_matrix(camera.world_from_camera)}};
 }
 
 Status write_gltf_cameras(const std::filesystem::path& file, const std::vector<TakenPicture>& pictures) {
   Json json{{"asset", {{"version", "2.0"}, {"generator", "Parvis"}}}, {"scene", 0}};
-  constexpr float half = 0.70710678f;  // a quarter turn about x: (x, y, z) becomes (x, z, -y)
-  Json root{{"name", "world, z up"}, {"rotation", {-half, 0.0f, 0.0f, half}}};
+  Json root{{"name", "world, z up"}, {"matrix", gltf_matrix(glm::transpose(z_up_from_y_up()))}};
   json["nodes"] = Json::array({root});
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const TakenPicture& picture = pictures[i];

@@ -9,6 +9,7 @@
 #include "base/checked.h"
 #include "base/exception_reason.h"
 #include "formats/gltf/gltf_values.h"
+#include "formats/gltf/gltf_vertex_codec.h"
 
 namespace parvis::scene {
 namespace {
@@ -16,7 +17,8 @@ namespace {
 using Json = GltfFile::Json;
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr const char *meshopt = "EXT_meshopt_compression", *draco_mesh = "KHR_draco_mesh_compression";
+constexpr const char *meshopt = "EXT_meshopt_compression", *khr_meshopt = "KHR_meshopt_compression",
+                     *draco_mesh = "KHR_draco_mesh_compression";
 constexpr std::size_t max_elements = 20'000'000;  // a hostile count must not allocate
 
 std::size_t count_in(const Json& object, const char* name) {
@@ -37,7 +39,13 @@ std::size_t add_view(Json& json, std::vector<Bytes>& buffers, Bytes bytes, Json 
   return json["bufferViews"].size() - 1;
 }
 
-// --- EXT_meshopt_compression
+// --- EXT_meshopt_compression, KHR_meshopt_compression
+
+/// How a buffer view is packed; empty where it is not.
+const Json& packing_of(const Json& view) {
+  const Json& packing = gltf_extension(view, khr_meshopt);
+  return packing.empty() ? gltf_extension(view, meshopt) : packing;
+}
 
 /// What the library asserts must be so: it is the file's to get wrong.
 bool fits_mode(const std::string& mode, std::size_t count, std::size_t stride) {
@@ -46,13 +54,15 @@ bool fits_mode(const std::string& mode, std::size_t count, std::size_t stride) {
 }
 
 bool fits_filter(const std::string& filter, std::size_t stride) {
-  if (filter == "OCTAHEDRAL") return stride == 4 || stride == 8;
+  if (filter == "OCTAHEDRAL" || filter == "COLOR") return stride == 4 || stride == 8;
   if (filter == "QUATERNION") return stride == 8;
   return filter == "EXPONENTIAL" || filter == "NONE";
 }
 
 int decode(const std::string& mode, Bytes& plain, std::size_t count, std::size_t stride,
            std::span<const std::uint8_t> packed) {
+  if (mode == "ATTRIBUTES" && is_vertex_codec_1(packed))
+    return decode_vertices_1(packed, count, stride, plain) ? 0 : -1;
   if (mode == "ATTRIBUTES")
     return meshopt_decodeVertexBuffer(plain.data(), count, stride, packed.data(), packed.size());
   if (mode == "TRIANGLES")
@@ -61,6 +71,7 @@ int decode(const std::string& mode, Bytes& plain, std::size_t count, std::size_t
 }
 
 void undo_filter(const std::string& filter, Bytes& plain, std::size_t count, std::size_t stride) {
+  if (filter == "COLOR") decode_colours(plain, count, stride);
   if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(plain.data(), count, stride);
   if (filter == "QUATERNION") meshopt_decodeFilterQuat(plain.data(), count, stride);
   if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(plain.data(), count, stride);
@@ -91,7 +102,7 @@ Bytes unpacked_view(const GltfFile& file, const Json& packing, const std::vector
 void decompress_views(const GltfFile& file, Json& json, std::vector<Bytes>& buffers) {
   const std::size_t view_count = file.list("bufferViews").size();
   for (std::size_t i = 0; i < view_count; ++i) {
-    const Json packing = gltf_extension(file.list("bufferViews")[i], meshopt);
+    const Json packing = packing_of(file.list("bufferViews")[i]);
     if (packing.empty()) continue;
     Json view = Json::object();
     if (packing.value("mode", "") == "ATTRIBUTES") view["byteStride"] = packing["byteStride"];
@@ -195,8 +206,31 @@ void decompress_primitive(const GltfFile& file, Json& json, std::vector<Bytes>& 
 
 }  // namespace
 
-bool is_fallback_buffer(const Json& buffer) {
-  return !buffer.contains("uri") && gltf_extension(buffer, meshopt).value("fallback", false);
+std::vector<char> needed_buffers(const GltfFile& file) {
+  const Json &buffers = file.list("buffers"), &views = file.list("bufferViews");
+  std::vector<char> is_packed(views.size(), 0), is_needed(buffers.size(), 0);
+  // What draco replaces is read by nobody, unless another primitive reads it too.
+  for (const Json& mesh : file.list("meshes"))
+    for (const Json& primitive : mesh.value("primitives", Json::array())) {
+      const Json& packing = gltf_extension(primitive, draco_mesh);
+      const Json& attributes = gltf_member(primitive, "attributes");
+      const auto mark = [&](int accessor, bool is_replaced) {
+        if (accessor < 0) return;
+        const int view =
+            file.index(file.list("accessors")[std::size_t(accessor)], "bufferView", "bufferViews");
+        if (view >= 0) is_packed[std::size_t(view)] |= is_replaced ? 1 : 2;
+      };
+      for (const auto& [name, accessor] : attributes.items())
+        mark(file.index(attributes, name.c_str(), "accessors"),
+             gltf_member(packing, "attributes").contains(name));
+      mark(file.index(primitive, "indices", "accessors"), !packing.empty());
+    }
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Json& packing = packing_of(views[i]);
+    const int buffer = file.index(packing.empty() ? views[i] : packing, "buffer", "buffers");
+    if (buffer >= 0 && is_packed[i] != 1) is_needed[std::size_t(buffer)] = 1;
+  }
+  return is_needed;
 }
 
 void decompress(const GltfFile& file, Json& json, std::vector<Bytes>& buffers) {

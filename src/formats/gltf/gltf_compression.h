@@ -1,5 +1,5 @@
-// Compressed glTF 2.0: EXT_meshopt_compression and KHR_draco_mesh_compression, undone by their own libraries
-// before anything else reads the file.
+// Compressed glTF 2.0: EXT_meshopt_compression, KHR_meshopt_compression and KHR_draco_mesh_compression,
+// undone before anything else reads the file.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,9 @@
 
 namespace parvis::scene {
 
-/// Is this a buffer that only readers without EXT_meshopt_compression would need?
-bool is_fallback_buffer(const GltfFile::Json& buffer);
+/// For each buffer of the file: 0 where only readers without its compressions would need it, else 1. Such a
+/// buffer may be missing.
+std::vector<char> needed_buffers(const GltfFile& file);
 
 /// Puts plain buffers, buffer views and accessors in place of the compressed ones of `file`, whose parts
 /// `json` and `buffers` are. Throws GltfProblem, which names the view or the mesh, where the compressed bytes

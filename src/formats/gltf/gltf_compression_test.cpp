@@ -159,10 +159,22 @@ TEST(GltfCompression, DamagedStreamsNeverCrash) {
   }
 }
 
-TEST(GltfCompression, BasisPicturesAreRefusedWithWhatToDo) {
+TEST(GltfCompression, BasisPicturesAreNamedWithWhatToDo) {
   Json json = described();
-  json["extensionsRequired"] = {"KHR_texture_basisu"};
-  EXPECT_NE(told(json, "").find("PNG or JPEG"), std::string::npos);
+  const std::string packed = packed_by_meshopt(json);
+  json["extensionsRequired"] = {"KHR_texture_basisu", "EXT_meshopt_compression"};
+  json["images"] = {{{"uri", "data:image/ktx2;base64,q0tUWCAyMLsNChoK"}}};
+  json["textures"] = {{{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}}};
+  json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  json["meshes"][0]["primitives"][0]["material"] = 0;
+  const TestFolder folder;
+  folder.write("packed.bin", packed);
+  Errors warnings;
+  const Result<formats::FileContent> content =
+      read_gltf_content(folder.write("packed.gltf", json.dump()), warnings);
+  ASSERT_TRUE(content) << to_string(content.errors());
+  EXPECT_NE(to_string(warnings).find("PNG or JPEG"), std::string::npos) << to_string(warnings);
+  EXPECT_EQ(content->account.count(Fate::left_out, "images"), 1u);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "base/files.h"
 #include "base/json_guard.h"
 #include "formats/gltf/gltf_compression.h"
+#include "formats/gltf/gltf_extensions.h"
 #include "formats/gltf/gltf_values.h"
 #include "formats/readers/packed_file.h"
 
@@ -168,16 +169,7 @@ GltfFile::GltfFile(const fs::path& file) : path_(file) {
   if (!json_.is_object() || !json_.contains("asset")) gltf_fail("this is no glTF: it has no \"asset\"");
   const std::string version = json_["asset"].value("version", "");
   if (version.empty() || version[0] != '2') gltf_fail("glTF version \"{}\"; only version 2 is read", version);
-  if (const auto required = json_.find("extensionsRequired"); required != json_.end() && required->is_array())
-    for (const Json& name : *required)
-      if (name != "KHR_texture_transform" && name != "KHR_materials_clearcoat" &&
-          name != "KHR_mesh_quantization" && name != "KHR_materials_emissive_strength" &&
-          name != "KHR_materials_transmission" && name != "KHR_materials_ior" &&
-          name != "KHR_materials_volume" && name != "KHR_materials_unlit" &&
-          name != "EXT_meshopt_compression" && name != "KHR_draco_mesh_compression")
-        gltf_fail(
-            "it requires the extension {}, which is not supported; {}", name.dump(),
-            name == "KHR_texture_basisu" ? "export it with pictures as PNG or JPEG" : "export it without");
+  check_required_extensions(*this);
   read_buffers();
   decompress(*this, json_, buffers_);
 }
@@ -204,14 +196,13 @@ void GltfFile::read_container(const std::string& bytes) {
 
 void GltfFile::read_buffers() {
   const Json& descriptions = list("buffers");
+  const std::vector<char> is_needed = needed_buffers(*this);
   for (std::size_t i = 0; i < descriptions.size(); ++i) {
     const Json& description = descriptions[i];
-    if (is_fallback_buffer(description)) {
-      buffers_.emplace_back();
-      continue;
-    }
-    buffers_.push_back(description.contains("uri") ? resource(description["uri"].get<std::string>())
-                                                   : binary_chunk_);
+    buffers_.emplace_back();
+    if (is_needed[i] == 0) continue;
+    buffers_.back() =
+        description.contains("uri") ? resource(description["uri"].get<std::string>()) : binary_chunk_;
     const std::size_t claimed = size_of(description, "byteLength");
     if (claimed > buffers_.back().size())
       gltf_fail("buffer {} claims {} bytes and there are {}; the file is cut short", i, claimed,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cstring>
+#include <map>
 #include <mutex>
 
 #include "base/content_hash.h"
@@ -39,8 +40,9 @@ std::string plain_name(std::string name) {
 }
 
 bool is_same_picture(const Texture& a, const Texture& b) {
-  return a.is_srgb == b.is_srgb && a.repeats == b.repeats && a.image.width == b.image.width &&
-         a.image.height == b.image.height && a.image.pixels == b.image.pixels;
+  return a.is_srgb == b.is_srgb && a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v &&
+         a.image.width == b.image.width && a.image.height == b.image.height &&
+         a.image.pixels == b.image.pixels;
 }
 
 /// Of a file system, in bytes; half of it is left to the name of the file that the pictures belong to.
@@ -76,7 +78,7 @@ bool is_ours(const fs::path& picture, std::string_view bytes, const std::string&
 
 std::uint64_t hash_of(const Texture& texture) {
   ContentHash hash;
-  hash.add(texture.is_srgb), hash.add(texture.repeats);
+  hash.add(texture.is_srgb), hash.add(texture.wrap_u), hash.add(texture.wrap_v);
   hash.add(texture.image.width), hash.add(texture.image.height);
   hash.add(texture.image.pixels);
   return hash.value();
@@ -138,36 +140,49 @@ void GltfMaterialWriter::use(const char* extension) {
     extensions_.push_back(extension);
 }
 
-Json GltfMaterialWriter::texture_info(int texture, const Material& material) {
+Json GltfMaterialWriter::texture_info(int texture, const TextureMapping& mapping) {
   Json info{{"index", texture}};
-  const glm::mat3& m = material.texture_from_mesh_uv;
+  if (mapping.takes_second_uvs) info["texCoord"] = 1;
+  const glm::mat3& m = mapping.texture_from_uv;
   if (m == glm::mat3(1.0f)) return info;
   use("KHR_texture_transform");
-  const float scale_u = glm::length(glm::vec2(m[0])), scale_v = glm::length(glm::vec2(m[1]));
+  const float scale_u = glm::length(glm::vec2(m[0]));
+  const float scale_v = (m[0].x * m[1].y - m[0].y * m[1].x) / std::max(scale_u, 1e-20f);  // may be mirrored
   info["extensions"]["KHR_texture_transform"] = {
       {"offset", {m[2].x, m[2].y}}, {"rotation", std::atan2(-m[0].y, m[0].x)}, {"scale", {scale_u, scale_v}}};
   return info;
 }
 
 Json GltfMaterialWriter::material_json(const Material& material, const std::vector<int>& written_textures) {
-  const auto info = [&](int texture) {
-    return texture_info(written_textures[std::size_t(texture)], material);
+  const TextureMapping base{material.texture_from_mesh_uv};
+  const OwnMappings own = material.own_mappings.value_or(OwnMappings{base, base, base, base});
+  const auto info = [&](int texture, const TextureMapping& mapping) {
+    return texture_info(written_textures[std::size_t(texture)], mapping);
   };
   Json json{{"name", material.name}};
   Json& metal = json["pbrMetallicRoughness"];
-  const glm::vec3 base = glm::clamp(material.base_colour, glm::vec3(0.0f), glm::vec3(1.0f));
-  metal["baseColorFactor"] = {base.x, base.y, base.z, material.alpha};
+  const glm::vec3 colour = glm::clamp(material.base_colour, glm::vec3(0.0f), glm::vec3(1.0f));
+  metal["baseColorFactor"] = {colour.x, colour.y, colour.z, material.alpha};
   metal["metallicFactor"] = material.metallic;
   metal["roughnessFactor"] = material.roughness;
   if (material.base_colour_texture != no_index)
-    metal["baseColorTexture"] = info(material.base_colour_texture);
+    metal["baseColorTexture"] = info(material.base_colour_texture, base);
   if (material.surface_texture != no_index)
-    metal["metallicRoughnessTexture"] = info(material.surface_texture);
+    metal["metallicRoughnessTexture"] = info(material.surface_texture, own.surface);
   if (material.normal_texture != no_index) {
-    json["normalTexture"] = info(material.normal_texture);
+    json["normalTexture"] = info(material.normal_texture, own.normal);
     json["normalTexture"]["scale"] = material.normal_scale;
   }
-  if (material.emission_texture != no_index) json["emissiveTexture"] = info(material.emission_texture);
+  if (material.emission_texture != no_index)
+    json["emissiveTexture"] = info(material.emission_texture, own.emission);
+  const int occlusion =
+      material.occlusion_texture != no_index ? material.occlusion_texture : material.surface_texture;
+  if (occlusion != no_index && material.occlusion_strength > 0.0f) {
+    json["occlusionTexture"] =
+        info(occlusion, occlusion == material.occlusion_texture ? own.occlusion : own.surface);
+    if (material.occlusion_strength != 1.0f)
+      json["occlusionTexture"]["strength"] = material.occlusion_strength;
+  }
   const float strength = std::max({material.emission.x, material.emission.y, material.emission.z, 1.0f});
   if (material.emission != glm::vec3(0.0f)) {
     json["emissiveFactor"] = array_of(material.emission / strength);
@@ -190,6 +205,8 @@ Json GltfMaterialWriter::material_json(const Material& material, const std::vect
     json["extensions"]["KHR_materials_volume"] = volume_json(material);
   }
   if (material.alpha_mode == Alpha::cutout) json["alphaMode"] = "MASK";
+  if (material.alpha_mode == Alpha::cutout && material.alpha_cutoff != 0.5f)
+    json["alphaCutoff"] = material.alpha_cutoff;
   if (material.alpha_mode == Alpha::blend) json["alphaMode"] = "BLEND";
   if (material.is_double_sided) json["doubleSided"] = true;
   if (material.is_mirror_like) json["extras"]["parvis"]["mirror_like"] = true;
@@ -201,15 +218,20 @@ Json GltfMaterialWriter::material_json(const Material& material, const std::vect
 void GltfMaterialWriter::describe(Json& json, const fs::path& file) const {
   if (!materials_.empty()) json["materials"] = materials_;
   if (!extensions_.empty()) json["extensionsUsed"] = extensions_;
+  constexpr int linear = 9729, trilinear = 9987;
+  constexpr std::array wraps{10497, 33648, 33071};  // in the order of Wrap
+  std::map<std::pair<Wrap, Wrap>, std::size_t> samplers;
   for (std::size_t i = 0; i < textures_.size(); ++i) {
     json["images"].push_back({{"uri", file_name(file, names_[i])}});
-    json["textures"].push_back({{"source", i}, {"sampler", textures_[i]->repeats ? 0 : 1}});
+    const auto [sampler, is_new] =
+        samplers.try_emplace({textures_[i]->wrap_u, textures_[i]->wrap_v}, samplers.size());
+    if (is_new)
+      json["samplers"].push_back({{"magFilter", linear},
+                                  {"minFilter", trilinear},
+                                  {"wrapS", wraps[std::size_t(textures_[i]->wrap_u)]},
+                                  {"wrapT", wraps[std::size_t(textures_[i]->wrap_v)]}});
+    json["textures"].push_back({{"source", i}, {"sampler", sampler->second}});
   }
-  constexpr int linear = 9729, trilinear = 9987, repeat = 10497, clamp = 33071;
-  if (!textures_.empty())
-    for (const int wrap : {repeat, clamp})
-      json["samplers"].push_back(
-          {{"magFilter", linear}, {"minFilter", trilinear}, {"wrapS", wrap}, {"wrapT", wrap}});
 }
 
 Result<std::vector<PartialFile>> GltfMaterialWriter::write_pictures(const fs::path& file) const {

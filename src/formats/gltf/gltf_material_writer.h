@@ -34,7 +34,7 @@ class GltfMaterialWriter {
 
  private:
   int add(const Texture& texture);
-  Json texture_info(int texture, const Material& material);
+  Json texture_info(int texture, const TextureMapping& mapping);
   Json material_json(const Material& material, const std::vector<int>& written_textures);
   void use(const char* extension);
 

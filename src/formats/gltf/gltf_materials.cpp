@@ -1,8 +1,10 @@
 #include "formats/gltf/gltf_materials.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <span>
 
 #include "base/image_io.h"
 #include "base/json_guard.h"
@@ -17,12 +19,19 @@ using Json = GltfFile::Json;
 
 class MaterialReader {
  public:
-  MaterialReader(const GltfFile& file, Model& model, Errors& warnings)
-      : file_(file), model_(model), warnings_(warnings) {}
+  MaterialReader(const GltfFile& file, Model& model, FileAccount& account, Errors& warnings)
+      : file_(file), model_(model), account_(account), warnings_(warnings) {}
 
-  void read_materials() {
-    for (const Json& source : file_.list("materials")) model_.materials.push_back(material(source));
+  std::vector<UvSets> read_materials() {
+    std::vector<UvSets> sets;
+    for (const Json& source : file_.list("materials")) {
+      model_.materials.push_back(material(source));
+      sets.push_back(settle_mappings(model_.materials.back()));
+    }
     model_.materials.emplace_back().name = "default";
+    sets.emplace_back();
+    account_.used("materials", file_.list("materials").size());
+    return sets;
   }
 
   void read_pictures() {
@@ -30,33 +39,93 @@ class MaterialReader {
     parallel_for(model_.textures.size(), [&](std::size_t i) {
       Texture& texture = model_.textures[i];
       Result<Image8> picture = read_picture(images_[i], texture.name);
+      const std::scoped_lock lock(mutex);
       if (picture) {
         texture.image = *std::move(picture);
+        account_.used("images");
         return;
       }
       texture.image = placeholder_picture();
-      const std::scoped_lock lock(mutex);
+      account_.left_out("images", "a checker stands for them", texture.name);
       for (const Error& problem : picture.errors())
         warnings_.push_back({problem.message + "; a checker stands for it", {file_.path().string(), 0, 0}});
     });
   }
 
  private:
+  /// A texture of the material that is read, and how it lies on the mesh.
+  struct Lying {
+    int Material::*texture;
+    TextureMapping OwnMappings::*mapping;  ///< null of the base colour's
+    glm::mat3 texture_from_uv;
+    int set;  ///< of texture coordinates
+  };
+
   /// The model's texture for a textureInfo: one for each pair of glTF texture and colour space.
-  int texture(const Json& info, bool is_srgb, Material& material) {
+  void read_texture(const Json& info, bool is_srgb, Material& material, int Material::*texture,
+                    TextureMapping OwnMappings::*mapping) {
+    material.*texture = model_texture(info, is_srgb);
+    if (material.*texture == no_index) return;
+    const Json& transform = gltf_extension(info, "KHR_texture_transform");
+    lying_.push_back({texture, mapping, transform.empty() ? glm::mat3(1.0f) : texture_transform(transform),
+                      transform.value("texCoord", info.value("texCoord", 0))});
+  }
+
+  /// Two sets of texture coordinates are kept; a texture that takes a third one is left out.
+  UvSets settle_mappings(Material& material) {
+    UvSets sets;
+    if (lying_.empty()) return sets;
+    sets.first = lying_.front().set;  // the base colour's, where it has a texture
+    material.texture_from_mesh_uv = lying_.front().texture_from_uv;
+    OwnMappings own;
+    bool differs = false;
+    for (const Lying& lying : lying_) {
+      if (lying.set != sets.first && sets.second < 0) sets.second = lying.set;
+      if (lying.set != sets.first && lying.set != sets.second) {
+        material.*lying.texture = no_index;
+        account_.left_out("textures", "a material takes more than two sets of texture coordinates",
+                          material.name);
+        continue;
+      }
+      const TextureMapping mapping{lying.texture_from_uv, lying.set != sets.first};
+      differs |= mapping.takes_second_uvs || mapping.texture_from_uv != material.texture_from_mesh_uv;
+      if (lying.mapping != nullptr) own.*lying.mapping = mapping;
+    }
+    if (differs) material.own_mappings = own, material.relief_m = 0.0f;
+    lying_.clear();
+    return sets;
+  }
+
+  /// The picture of a texture: that of an extension whose format is read, else the one that all readers know.
+  int image_of(const Json& texture) {
+    const Json& webp = gltf_extension(texture, "EXT_texture_webp");
+    if (const int image = file_.index(webp, "source", "images"); image >= 0) return image;
+    const int plain = file_.index(texture, "source", "images");
+    for (const char* unread : {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
+      const int image = file_.index(gltf_extension(texture, unread), "source", "images");
+      if (image < 0) continue;
+      if (plain < 0) return image;
+      account_.changed("textures", fmt::format("a plain picture stands for that of {}", unread));
+    }
+    return plain;
+  }
+
+  Wrap wrap_of(int sampler, const char* axis) const {
+    constexpr int clamp_to_edge = 33071, mirrored_repeat = 33648, repeat = 10497;
+    if (sampler < 0) return Wrap::repeat;
+    const int wrap = file_.list("samplers")[std::size_t(sampler)].value(axis, repeat);
+    return wrap == clamp_to_edge ? Wrap::clamp : wrap == mirrored_repeat ? Wrap::mirror : Wrap::repeat;
+  }
+
+  int model_texture(const Json& info, bool is_srgb) {
     const int gltf_texture = file_.index(info, "index", "textures");
     if (gltf_texture < 0) return no_index;
-    const Json& transform = gltf_extension(info, "KHR_texture_transform");
-    if (!transform.empty()) material.texture_from_mesh_uv = texture_transform(transform);
     const auto [place, is_new] = textures_.try_emplace({gltf_texture, is_srgb}, int(model_.textures.size()));
     if (!is_new) return place->second;
     const Json& description = file_.list("textures")[std::size_t(gltf_texture)];
     const int sampler = file_.index(description, "sampler", "samplers");
-    constexpr int clamp_to_edge = 33071;
-    const bool repeats =
-        sampler < 0 || file_.list("samplers")[std::size_t(sampler)].value("wrapS", 10497) != clamp_to_edge;
-    model_.textures.push_back({"", {}, is_srgb, repeats});
-    images_.push_back(file_.index(description, "source", "images"));
+    model_.textures.push_back({"", {}, is_srgb, wrap_of(sampler, "wrapS"), wrap_of(sampler, "wrapT")});
+    images_.push_back(image_of(description));
     return place->second;
   }
 
@@ -78,11 +147,15 @@ class MaterialReader {
     m.alpha = base.w;
     m.metallic = gltf_number(metal, "metallicFactor", 1.0f);
     m.roughness = gltf_number(metal, "roughnessFactor", 1.0f);
-    m.base_colour_texture = texture(gltf_member(metal, "baseColorTexture"), true, m);
-    m.surface_texture = texture(gltf_member(metal, "metallicRoughnessTexture"), false, m);
-    m.normal_texture = texture(gltf_member(source, "normalTexture"), false, m);
+    read_texture(gltf_member(metal, "baseColorTexture"), true, m, &Material::base_colour_texture, nullptr);
+    read_texture(gltf_member(metal, "metallicRoughnessTexture"), false, m, &Material::surface_texture,
+                 &OwnMappings::surface);
+    read_texture(gltf_member(source, "normalTexture"), false, m, &Material::normal_texture,
+                 &OwnMappings::normal);
     m.normal_scale = gltf_number(gltf_member(source, "normalTexture"), "scale", 1.0f);
-    m.emission_texture = texture(gltf_member(source, "emissiveTexture"), true, m);
+    read_texture(gltf_member(source, "emissiveTexture"), true, m, &Material::emission_texture,
+                 &OwnMappings::emission);
+    read_occlusion(gltf_member(source, "occlusionTexture"), m);
     m.emission =
         gltf_vector<3>(source, "emissiveFactor", glm::vec3(0.0f)) *
         gltf_number(gltf_extension(source, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0f);
@@ -91,6 +164,11 @@ class MaterialReader {
     m.clear_coat_roughness = gltf_number(coat, "clearcoatRoughnessFactor", 0.0f);
     const std::string mode = source.value("alphaMode", "OPAQUE");
     m.alpha_mode = mode == "MASK" ? Alpha::cutout : mode == "BLEND" ? Alpha::blend : Alpha::opaque;
+    const float cutoff = gltf_number(source, "alphaCutoff", 0.5f);
+    if (cutoff > 0.0f)
+      m.alpha_cutoff = cutoff;
+    else if (m.alpha_mode == Alpha::cutout)
+      m.alpha_mode = Alpha::opaque;  // nothing lies below it
     m.is_double_sided = source.value("doubleSided", false);
     const Json& parvis = gltf_member(gltf_member(source, "extras"), "parvis");
     m.translucency = gltf_number(parvis, "translucency", 0.0f);
@@ -104,6 +182,23 @@ class MaterialReader {
       make_solid(m, gltf_extension(source, "KHR_materials_ior"), volume);
     if (!m.refracts()) m.base_colour *= 0.1f;  // panes are shown dark and mirroring, as they look by day
     return m;
+  }
+
+  /// Ambient occlusion: the red of the surface texture where the file says that it is the same, else a
+  /// texture of its own. Without any, the red of the surface texture means nothing.
+  void read_occlusion(const Json& info, Material& m) {
+    m.occlusion_strength = 0.0f;
+    if (info.empty()) return;
+    m.occlusion_strength = gltf_number(info, "strength", 1.0f);
+    read_texture(info, false, m, &Material::occlusion_texture, &OwnMappings::occlusion);
+    if (m.occlusion_texture == no_index || m.occlusion_texture != m.surface_texture) return;
+    const Lying& occlusion = lying_.back();
+    const auto surface = std::ranges::find(lying_, &Material::surface_texture, &Lying::texture);
+    if (surface == lying_.end() || surface->set != occlusion.set ||
+        surface->texture_from_uv != occlusion.texture_from_uv)
+      return;
+    m.occlusion_texture = no_index;
+    lying_.pop_back();
   }
 
   /// A body of glass, as against a pane.
@@ -125,6 +220,16 @@ class MaterialReader {
       m.absorption_per_m = -glm::log(glm::clamp(left, glm::vec3(1e-6f), glm::vec3(1.0f))) / distance_m;
   }
 
+  static Result<Image8> decoded(std::span<const std::uint8_t> bytes, const std::string& name) {
+    constexpr std::string_view ktx2 = "\xabKTX 20\xbb";
+    const std::string_view front(reinterpret_cast<const char*>(bytes.data()),
+                                 std::min(bytes.size(), ktx2.size()));
+    if (front == ktx2)
+      return error("{}: pictures as KTX2 are not decoded; export the model with pictures as PNG or JPEG",
+                   name);
+    return read_image8(bytes, name);
+  }
+
   Result<Image8> read_picture(int image, std::string& name) const {
     if (image < 0) return error("a texture without a picture");
     const Json& description = file_.list("images")[std::size_t(image)];
@@ -132,9 +237,8 @@ class MaterialReader {
     if (name.starts_with("data:")) name = fmt::format("image {}", image);
     try {
       if (const int view = file_.index(description, "bufferView", "bufferViews"); view >= 0)
-        return read_image8(file_.buffer_view(view), name);
-      const std::vector<std::uint8_t> bytes = file_.resource(description.value("uri", ""));
-      return read_image8(bytes, name);
+        return decoded(file_.buffer_view(view), name);
+      return decoded(file_.resource(description.value("uri", "")), name);
     } catch (const GltfFile::GltfProblem& problem) {
       return error("{}", problem.message);
     } catch (const Json::exception& problem) {
@@ -144,17 +248,21 @@ class MaterialReader {
 
   const GltfFile& file_;
   Model& model_;
+  FileAccount& account_;
   Errors& warnings_;
+  std::vector<Lying> lying_;                      ///< the textures of the material that is read
   std::map<std::pair<int, bool>, int> textures_;  ///< (glTF texture, is sRGB) to the model's texture
   std::vector<int> images_;                       ///< of each of the model's textures
 };
 
 }  // namespace
 
-void read_materials(const GltfFile& file, Model& model, Errors& warnings) {
-  MaterialReader reader(file, model, warnings);
-  reader.read_materials();
+std::vector<UvSets> read_materials(const GltfFile& file, Model& model, FileAccount& account,
+                                   Errors& warnings) {
+  MaterialReader reader(file, model, account, warnings);
+  std::vector<UvSets> sets = reader.read_materials();
   reader.read_pictures();
+  return sets;
 }
 
 }  // namespace parvis::scene

@@ -68,6 +68,10 @@ Json primitive_json(const Part& part, int first_material, GltfChunk& chunk) {
       {"POSITION", chunk.add_positions(deformation ? deformation->positions : part.mesh.positions)},
       {"NORMAL", chunk.add_vectors(deformation ? deformation->normals : part.mesh.normals)},
       {"TEXCOORD_0", chunk.add(part.mesh.uvs, "VEC2", Component::float32, Use::vertices)}};
+  if (!part.mesh.second_uvs.empty())
+    attributes["TEXCOORD_1"] = chunk.add(part.mesh.second_uvs, "VEC2", Component::float32, Use::vertices);
+  if (!part.mesh.colours.empty())
+    attributes["COLOR_0"] = chunk.add(part.mesh.colours, "VEC4", Component::float32, Use::vertices);
   if (deformation && !deformation->skin.joints.empty()) write_skin(deformation->skin, chunk, attributes);
   Json primitive{{"attributes", attributes},
                  {"indices", chunk.add(part.mesh.indices, "SCALAR", Component::uint32, Use::indices)},

@@ -6,6 +6,7 @@
 
 #include "base/mesh.h"
 #include "formats/gltf/gltf_file.h"
+#include "formats/gltf/gltf_materials.h"
 
 namespace parvis::scene {
 
@@ -23,6 +24,12 @@ std::vector<glm::vec<N, float>> gltf_attribute(const GltfFile& file, const GltfF
 
 /// A primitive's triangles; none where it holds points or lines, which have no surface. Throws GltfProblem,
 /// which names the mesh.
-Mesh read_primitive(const GltfFile& file, const GltfFile::Json& primitive, const std::string& mesh_name);
+Mesh read_primitive(const GltfFile& file, const GltfFile::Json& primitive, const std::string& mesh_name,
+                    UvSets sets);
+
+/// Counts the primitives of a mesh and their attributes: what is used, and what nothing takes. `sets`: of
+/// each material, and of no material last.
+void count_primitives(const GltfFile& file, const GltfFile::Json& mesh, const std::vector<UvSets>& sets,
+                      FileAccount& account);
 
 }  // namespace parvis::scene

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtx/matrix_decompose.hpp>
 
+#include "formats/gltf/gltf_transform.h"
 #include "formats/gltf/gltf_values.h"
 
 namespace parvis::scene {
@@ -13,26 +13,24 @@ using Json = GltfFile::Json;
 
 constexpr std::size_t max_warnings = 20;  // of a graph that is no tree: a hostile file has millions
 
-ModelNode read_node(const Json& source, int parent) {
+ModelNode read_node(const Json& source, int parent, FileAccount& account) {
   ModelNode node;
   node.name = source.value("name", "");
   node.parent = parent;
   if (source.contains("matrix")) {
-    glm::mat4 matrix(1.0f);
+    glm::dmat4 matrix(1.0);
     const Json& values = source["matrix"];
     if (!values.is_array() || values.size() != 16)
       gltf_fail("a node's matrix has {} numbers; expected 16", values.size());
-    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = values[std::size_t(i)].get<float>();
-    glm::vec3 skew;
-    glm::vec4 perspective;
-    if (!glm::decompose(matrix, node.scale, node.rotation, node.translation, skew, perspective))
-      gltf_fail("a node's matrix is singular: it flattens the model");
+    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = values[std::size_t(i)].get<double>();
+    if (!decompose(matrix, node))
+      account.changed("matrices of nodes", "they shear, which glTF does not allow", node.name);
   } else {
-    node.translation = gltf_vector<3>(source, "translation", glm::vec3(0.0f));
-    node.scale = gltf_vector<3>(source, "scale", glm::vec3(1.0f));
-    const glm::vec4 q = gltf_vector<4>(source, "rotation", glm::vec4(0, 0, 0, 1));
-    const float length = glm::length(q);
-    if (length > 0.0f) node.rotation = glm::quat(q.w, q.x, q.y, q.z) / length;
+    node.translation = gltf_vector<3>(source, "translation", glm::dvec3(0.0));
+    node.scale = gltf_vector<3>(source, "scale", glm::dvec3(1.0));
+    const glm::dvec4 q = gltf_vector<4>(source, "rotation", glm::dvec4(0, 0, 0, 1));
+    const double length = glm::length(q);
+    if (length > 0.0) node.rotation = glm::dquat(q.w, q.x, q.y, q.z) / length;
   }
   for (int i = 0; i < 3; ++i)
     if (!std::isfinite(node.translation[i]) || !std::isfinite(node.scale[i]) ||
@@ -43,10 +41,11 @@ ModelNode read_node(const Json& source, int parent) {
 
 class TreeReader {
  public:
-  TreeReader(const GltfFile& file, Model& model, Errors& warnings)
-      : file_(file), model_(model), warnings_(warnings) {
+  TreeReader(const GltfFile& file, Model& model, FileAccount& account, Errors& warnings)
+      : file_(file), model_(model), account_(account), warnings_(warnings) {
     nodes_.of_gltf.assign(file.list("nodes").size(), no_index);
     nodes_.gltf_of.assign(model.nodes.size(), no_index);
+    nodes_.is_hidden.assign(model.nodes.size(), 0);
   }
 
   GltfNodes read() {
@@ -58,6 +57,7 @@ class TreeReader {
       for (const Json& root : scenes[std::size_t(scene)].value("nodes", Json::array()))
         if (const std::size_t node = node_index(root); !is_read(node)) read_tree(node);
     }
+    count();
     return std::move(nodes_);
   }
 
@@ -95,10 +95,28 @@ class TreeReader {
       nodes_.of_gltf[gltf_node] = node;
       nodes_.gltf_of.push_back(int(gltf_node));
       const Json& source = file_.list("nodes")[gltf_node];
-      model_.nodes.push_back(read_node(source, parent));
+      model_.nodes.push_back(read_node(source, parent, account_));
+      const Json& visibility = gltf_extension(source, "KHR_node_visibility");
+      nodes_.is_hidden.push_back(nodes_.is_hidden[std::size_t(parent)] != 0 ||
+                                 !visibility.value("visible", true));
       for (const Json& child : source.value("children", Json::array()))
         open.emplace_back(node_index(child), node);
     }
+  }
+
+  void count() {
+    for (std::size_t i = 0; i < nodes_.of_gltf.size(); ++i)
+      if (!is_read(i))
+        account_.unneeded("nodes", "no scene shows them",
+                          file_.list("nodes")[i].value("name", fmt::format("node {}", i)));
+    for (std::size_t i = 1; i < model_.nodes.size(); ++i)
+      if (nodes_.is_hidden[i] != 0)
+        account_.unneeded("nodes", "the file hides them", model_.nodes[i].name);
+      else
+        account_.used("nodes");
+    const std::size_t scenes = file_.list("scenes").size();
+    if (scenes > 1)
+      account_.left_out("scenes", "the first, or the one that the file names, is read", "", scenes - 1);
   }
 
   void leave_out(std::size_t gltf_node, int parent) {
@@ -121,6 +139,7 @@ class TreeReader {
 
   const GltfFile& file_;
   Model& model_;
+  FileAccount& account_;
   Errors& warnings_;
   GltfNodes nodes_;
   std::size_t left_out_ = 0;
@@ -128,8 +147,8 @@ class TreeReader {
 
 }  // namespace
 
-GltfNodes read_nodes(const GltfFile& file, Model& model, Errors& warnings) {
-  return TreeReader(file, model, warnings).read();
+GltfNodes read_nodes(const GltfFile& file, Model& model, FileAccount& account, Errors& warnings) {
+  return TreeReader(file, model, account, warnings).read();
 }
 
 }  // namespace parvis::scene

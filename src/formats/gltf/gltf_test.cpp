@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 /// Two parts on two nodes, with every property that the writer knows.
 Model small_model() {
   Model model;
-  model.textures.push_back({"colour", Image8(4, 4, 4, 200), true, true});
+  model.textures.push_back({"colour", Image8(4, 4, 4, 200)});
   model.textures.back().image.pixels[3] = 10;
   Material paint;
   paint.name = "paint";

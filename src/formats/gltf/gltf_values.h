@@ -30,13 +30,13 @@ inline float gltf_number(const GltfFile::Json& object, const char* name, float o
 
 /// The vector of N numbers `name` of an object; `otherwise` where it is absent. Throws GltfProblem where it
 /// is no array of N.
-template <int N>
-glm::vec<N, float> gltf_vector(const GltfFile::Json& object, const char* name, glm::vec<N, float> otherwise) {
+template <int N, class T>
+glm::vec<N, T> gltf_vector(const GltfFile::Json& object, const char* name, glm::vec<N, T> otherwise) {
   const auto found = object.find(name);
   if (found == object.end()) return otherwise;
   if (!found->is_array() || found->size() != std::size_t(N))
     gltf_fail("\"{}\" is {}; expected {} numbers", name, found->dump(), N);
-  for (int i = 0; i < N; ++i) otherwise[i] = (*found)[std::size_t(i)].get<float>();
+  for (int i = 0; i < N; ++i) otherwise[i] = (*found)[std::size_t(i)].get<T>();
   return otherwise;
 }
 

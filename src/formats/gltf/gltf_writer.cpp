@@ -1,6 +1,5 @@
 #include "formats/gltf/gltf_writer.h"
 
-#include <glm/gtx/matrix_decompose.hpp>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 #include "formats/gltf/gltf_material_writer.h"
 #include "formats/gltf/gltf_mesh_writer.h"
 #include "formats/gltf/gltf_own_data.h"
+#include "formats/gltf/gltf_transform.h"
 
 namespace parvis::scene {
 namespace fs = std::filesystem;
@@ -19,24 +19,22 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json array_of(glm::vec3 v) { return {v.x, v.y, v.z}; }
+Json array_of(glm::dvec3 v) { return {v.x, v.y, v.z}; }
 
 Json node_json(const ModelNode& node) {
   Json json = Json::object();
   if (!node.name.empty()) json["name"] = node.name;
-  if (node.translation != glm::vec3(0.0f)) json["translation"] = array_of(node.translation);
-  if (node.scale != glm::vec3(1.0f)) json["scale"] = array_of(node.scale);
-  if (node.rotation != glm::quat(1, 0, 0, 0))
+  if (node.translation != glm::dvec3(0.0)) json["translation"] = array_of(node.translation);
+  if (node.scale != glm::dvec3(1.0)) json["scale"] = array_of(node.scale);
+  if (node.rotation != glm::dquat(1, 0, 0, 0))
     json["rotation"] = {node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
   return json;
 }
 
 /// A node that stands in its parent as the matrix says.
-ModelNode node_of(const std::string& name, int parent, const glm::mat4& parent_from_node) {
+ModelNode node_of(const std::string& name, int parent, const glm::dmat4& parent_from_node) {
   ModelNode node{.name = name, .parent = parent};
-  glm::vec3 skew;
-  glm::vec4 perspective;
-  glm::decompose(parent_from_node, node.scale, node.rotation, node.translation, skew, perspective);
+  decompose(parent_from_node, node);
   return node;
 }
 
@@ -46,9 +44,9 @@ std::vector<ModelNode> nodes_now(const Object& object) {
   if (object.pose.empty() || object.played.animation != no_index) return nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const int parent = nodes[i].parent;
-    const glm::mat4 model_from_parent =
-        parent == no_index ? glm::mat4(1.0f) : object.pose[std::size_t(parent)];
-    nodes[i] = node_of(nodes[i].name, parent, glm::inverse(model_from_parent) * object.pose[i]);
+    const glm::dmat4 model_from_parent =
+        parent == no_index ? glm::dmat4(1.0) : glm::dmat4(object.pose[std::size_t(parent)]);
+    nodes[i] = node_of(nodes[i].name, parent, glm::inverse(model_from_parent) * glm::dmat4(object.pose[i]));
   }
   return nodes;
 }
@@ -56,8 +54,7 @@ std::vector<ModelNode> nodes_now(const Object& object) {
 class Writer {
  public:
   Writer() {
-    const float half = std::sqrt(0.5f);
-    nodes_.push_back({{"name", "z_up"}, {"rotation", {-half, 0.0f, 0.0f, half}}});
+    nodes_.push_back({{"name", "z_up"}, {"matrix", gltf_matrix(glm::transpose(z_up_from_y_up()))}});
   }
 
   /// All of `model`, in `materials`, on nodes of an object, below the file's node `parent`.

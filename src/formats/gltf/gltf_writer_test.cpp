@@ -201,7 +201,7 @@ TEST(GltfWriter, PicturesOfOneNameAreKeptApartAndEqualOnesAreOne) {
   const TestFolder folder;
   Model model = *model_of(box(glm::vec3(0.0f), glm::vec3(1.0f)), matt(glm::vec3(1.0f)));
   for (const std::uint8_t grey : {50, 50, 90})
-    model.textures.push_back({"some where/a wall?.jpg", Image8(2, 2, 4, grey), true, true});
+    model.textures.push_back({"some where/a wall?.jpg", Image8(2, 2, 4, grey)});
   for (const int texture : {0, 1, 2}) {
     model.materials.push_back(matt(glm::vec3(1.0f)));
     model.materials.back().base_colour_texture = texture;
@@ -221,8 +221,7 @@ TEST(GltfWriter, PicturesOfLongAndEqualNamesAreWritten) {
   Model model = *model_of(box(glm::vec3(0.0f), glm::vec3(1.0f)), matt(glm::vec3(1.0f)));
   const std::string name(400, 'n');
   for (const int grey : {10, 20, 30, 40})
-    model.textures.push_back(
-        {grey < 40 ? name : name + "_2", Image8(2, 2, 4, std::uint8_t(grey)), true, true});
+    model.textures.push_back({grey < 40 ? name : name + "_2", Image8(2, 2, 4, std::uint8_t(grey))});
   for (int texture = 0; texture < 4; ++texture) {
     model.materials.push_back(matt(glm::vec3(1.0f)));
     model.materials.back().base_colour_texture = texture;
@@ -242,7 +241,7 @@ TEST(GltfWriter, PicturesOfOthersAreNotWrittenOver) {
   const TestFolder folder;
   const auto painted = [](std::uint8_t grey) {
     Model model = *model_of(box(glm::vec3(0.0f), glm::vec3(1.0f)), matt(glm::vec3(1.0f)));
-    model.textures.push_back({"wall.png", Image8(2, 2, 4, grey), true, true});
+    model.textures.push_back({"wall.png", Image8(2, 2, 4, grey)});
     model.materials.front().base_colour_texture = 0;
     return model;
   };

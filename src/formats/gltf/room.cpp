@@ -7,9 +7,9 @@
 namespace parvis::gltf {
 namespace {
 
-Result<scene::Model> read_model(const std::filesystem::path& file, const formats::ModelReading&,
-                                Errors& warnings) {
-  return scene::read_gltf(file, warnings);
+Result<formats::FileContent> read_model(const std::filesystem::path& file, const formats::ModelReading&,
+                                        Errors& warnings) {
+  return scene::read_gltf_content(file, warnings);
 }
 
 bool is_gltf(std::string_view front) { return front.starts_with("glTF") || formats::looks_like_json(front); }

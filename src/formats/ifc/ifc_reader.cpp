@@ -171,7 +171,8 @@ std::vector<Texture> textures_of(const std::vector<IfcPicture>& pictures, const 
     textures.push_back({.name = picture.name,
                         .image = image ? *std::move(image) : placeholder_picture(),
                         .is_srgb = true,
-                        .repeats = picture.repeats});
+                        .wrap_u = picture.repeats ? Wrap::repeat : Wrap::clamp,
+                        .wrap_v = picture.repeats ? Wrap::repeat : Wrap::clamp});
   }
   return textures;
 }

@@ -221,7 +221,8 @@ TEST_F(TexturedIfcTest, PicturesOfTheFileItselfLieAsItsCoordinatesSay) {
       model.parts, [&](const Part& each) { return !picture(model, each).pixels.empty(); });
   ASSERT_NE(panel, model.parts.end());
   EXPECT_EQ(picture(model, *panel).pixels, marked().pixels);
-  EXPECT_FALSE(model.textures[std::size_t(material(model, *panel).base_colour_texture)].repeats);
+  EXPECT_EQ(model.textures[std::size_t(material(model, *panel).base_colour_texture)].wrap_u,
+            scene::Wrap::clamp);
   EXPECT_EQ(material(model, *panel).base_colour, glm::vec3(1.0f)) << "the picture alone";
   const Bounds box = panel->mesh.bounds();
   ASSERT_EQ(panel->mesh.indices.size(), 6u);

@@ -3,13 +3,14 @@
 #include "formats/ifc/ifc_reader.h"
 #include "formats/readers/content.h"
 #include "formats/readers/isolated_reader.h"
+#include "formats/readers/plain_account.h"
 
 namespace parvis::ifc {
 namespace {
 
-Result<scene::Model> read(const std::filesystem::path& file, const formats::ModelReading& reading,
-                          Errors& warnings) {
-  return scene::read_ifc(file, warnings, reading.place_deg, reading.map);
+Result<formats::FileContent> read(const std::filesystem::path& file, const formats::ModelReading& reading,
+                                  Errors& warnings) {
+  return formats::with_plain_account("IFC", scene::read_ifc(file, warnings, reading.place_deg, reading.map));
 }
 
 /// ISO 10303-21, the text form of STEP.

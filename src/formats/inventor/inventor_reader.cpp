@@ -22,6 +22,7 @@
 
 #include "base/files.h"
 #include "base/image_io.h"
+#include "formats/readers/plain_account.h"
 #include "scene/data/placeholder.h"
 
 namespace parvis::inventor {
@@ -158,7 +159,8 @@ class Assembly {
     const auto [known, is_new] = textures_.try_emplace({&image, repeats}, int(model_.textures.size()));
     if (!is_new) return known->second;
     const std::string name = image.url[0].getString();
-    model_.textures.push_back({name, read_picture(name), true, repeats});
+    model_.textures.push_back({name, read_picture(name)});
+    model_.textures.back().set_repeats(repeats);
     return known->second;
   }
 
@@ -170,7 +172,7 @@ class Assembly {
                           std::equal(picture_mark.begin(), picture_mark.end(), texels);
     const std::size_t number = is_named ? std::size_t(texels[2]) << 8 | texels[3] : pictures_.size();
     scene::Texture texture;
-    texture.repeats = repeats;
+    texture.set_repeats(repeats);
     if (number < pictures_.size())
       texture.name = pictures_[number], texture.image = read_picture(texture.name);
     else
@@ -288,8 +290,8 @@ void note_problem(const SoError* problem, void* text) {
 
 }  // namespace
 
-Result<scene::Model> read_inventor(const fs::path& file, const formats::ModelReading& reading,
-                                   Errors& warnings) {
+Result<formats::FileContent> read_inventor(const fs::path& file, const formats::ModelReading& reading,
+                                           Errors& warnings) {
   const Result<std::string> text = read_file(file, max_bytes);
   if (!text) return text.errors();
   if (const Status status = check_nesting(*text, file.string()); !status) return status.errors();
@@ -311,7 +313,7 @@ Result<scene::Model> read_inventor(const fs::path& file, const formats::ModelRea
   if (!root)
     return error_at({file.string(), 0, 0}, "cannot be read as Inventor or VRML ({})",
                     problem.empty() ? "no reason given" : problem);
-  return assembly.take();
+  return formats::with_plain_account("Inventor or VRML", assembly.take());
 }
 
 }  // namespace parvis::inventor

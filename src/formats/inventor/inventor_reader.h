@@ -14,7 +14,7 @@ inline constexpr int max_nesting = 256;
 /// around it that has one. Pictures lie below the file's folder. Refused with line and reason: what is no
 /// text, nested too deep, or not understood by Coin. To be called in a worker (isolated_reader.h): Coin may
 /// crash on damaged files.
-Result<scene::Model> read_inventor(const std::filesystem::path& file, const formats::ModelReading& reading,
-                                   Errors& warnings);
+Result<formats::FileContent> read_inventor(const std::filesystem::path& file,
+                                           const formats::ModelReading& reading, Errors& warnings);
 
 }  // namespace parvis::inventor

@@ -50,6 +50,80 @@ TEST(Assimp, DamagedTextNeverCrashes) {
   }
 }
 
+/// Of the surface, metres.
+glm::vec3 size_of(const Model& model) { return bounds(model).size(); }
+
+TEST(Assimp, CoordinatesOfANationalGridKeepTheirMillimetres) {
+  const TestFolder folder;
+  const std::string obj =
+      "v 458321.370 5431987.630 112.400\nv 458321.620 5431987.630 112.400 \n"
+      "v 458321.620 5431987.755 112.400\nv 458321.370 5431987.630 112.570\nf 1 2 3\nf 1 2 4\n";
+  for (const formats::UpAxis up : {formats::UpAxis::z, formats::UpAxis::file}) {  // no height is 5432 km
+    Errors warnings;
+    const Result<formats::FileContent> content =
+        read_assimp_content(folder.write("far.obj", obj), up, warnings);
+    ASSERT_TRUE(content) << to_string(content.errors());
+    EXPECT_LT(glm::distance(size_of(content->model), glm::vec3(0.25f, 0.125f, 0.17f)), 1e-4f);
+    EXPECT_NEAR(content->model.origin.x + double(bounds(content->model).min.x), 458321.370, 1e-4);
+    EXPECT_NEAR(content->model.origin.y + double(bounds(content->model).min.y), 5431987.630, 1e-4);
+    EXPECT_NEAR(bounds(content->model).min.z, 112.4f, 1e-4f);
+    EXPECT_EQ(content->account.count(Fate::changed, "coordinates"), 1u);
+    EXPECT_EQ(content->account.count(Fate::left_out), 0u);
+  }
+  Errors warnings;
+  const std::string y_up =
+      "v 458321.370 35.25 -5431987.630\nv 458322 35.25 -5431987.630\nv 458321 36 -5431987\nf 1 2 3\n";
+  const Result<Model> roof =
+      read_with_assimp(folder.write("roof.obj", y_up), formats::UpAxis::file, warnings);
+  ASSERT_TRUE(roof);
+  EXPECT_EQ(bounds(*roof).min.z, 35.25f);
+  EXPECT_NEAR(roof->origin.y + double(bounds(*roof).max.y), 5431987.630, 1e-4);
+}
+
+TEST(Assimp, PlyAndStlAreBroughtNearInDoublePrecision) {
+  const TestFolder folder;
+  Errors warnings;
+  std::string ply =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+      "property double z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n";
+  const auto put = [&](const auto& value) {
+    ply.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  for (const glm::dvec3 p : {glm::dvec3(600000.125, 200000.25, 400.5),
+                             {600000.25, 200000.25, 400.5},
+                             {600000.125, 200000.375, 400.5}}) {
+    put(p.x), put(p.y), put(p.z);
+    for (const std::uint8_t c : {255, 0, 128}) put(c);
+  }
+  put(std::uint8_t(3)), put(0), put(1), put(2);
+  const Result<Model> cloud = read_with_assimp(folder.write("far.ply", ply), formats::UpAxis::file, warnings);
+  ASSERT_TRUE(cloud) << to_string(cloud.errors());
+  EXPECT_LT(glm::distance(size_of(*cloud), glm::vec3(0.125f, 0.125f, 0.0f)), 1e-5f);
+  ASSERT_EQ(cloud->parts[0].mesh.colours.size(), 3u);
+  EXPECT_NEAR(cloud->parts[0].mesh.colours[0].x, 1.0f, 1e-4f);
+  EXPECT_NEAR(cloud->parts[0].mesh.colours[0].z, 0.216f, 0.002f) << "sRGB";
+
+  const std::string stl =
+      "solid s\nfacet normal 0 0 1\nouter loop\nvertex 600000.125 200000.25 400.5\nvertex 600000.25 "
+      "200000.25 400.5\n"
+      "vertex 600000.125 200000.375 400.5\nendloop\nendfacet\nendsolid s\n";
+  const Result<Model> facet = read_with_assimp(folder.write("far.stl", stl), formats::UpAxis::file, warnings);
+  ASSERT_TRUE(facet) << to_string(facet.errors());
+  EXPECT_LT(glm::distance(size_of(*facet), glm::vec3(0.125f, 0.125f, 0.0f)), 1e-5f);
+}
+
+TEST(Assimp, WhatIsLeftOutIsNamed) {
+  const TestFolder folder;
+  folder.write("m.mtl", "newmtl red\nKd 1 0 0\nmap_Bump relief.png\n");
+  Errors warnings;
+  const Result<formats::FileContent> content = read_assimp_content(
+      folder.write("q.obj", std::string(quad) + "l 1 2\n"), formats::UpAxis::file, warnings);
+  ASSERT_TRUE(content) << to_string(content.errors());
+  EXPECT_EQ(content->account.count(Fate::left_out, "textures"), 1u);
+  EXPECT_EQ(content->account.count(Fate::left_out, "primitives"), 1u);
+}
+
 TEST(Assimp, ReadsTheRealCar) {
   const auto file = shared_data("cars/p406/p406.obj");
   if (!file) GTEST_SKIP() << "skipped: shared data absent";

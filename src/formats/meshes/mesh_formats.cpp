@@ -22,9 +22,9 @@ bool is_ac3d(std::string_view front) { return front.starts_with("AC3D"); }
 bool is_lightwave(std::string_view front) { return front.starts_with("FORM"); }
 bool is_directx(std::string_view front) { return front.starts_with("xof "); }
 
-Result<Model> read_mesh(const std::filesystem::path& file, const formats::ModelReading& reading,
-                        Errors& warnings) {
-  return read_with_assimp(file, reading.up, warnings);
+Result<formats::FileContent> read_mesh(const std::filesystem::path& file,
+                                       const formats::ModelReading& reading, Errors& warnings) {
+  return read_assimp_content(file, reading.up, warnings);
 }
 
 }  // namespace

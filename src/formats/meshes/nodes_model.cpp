@@ -2,9 +2,11 @@
 #include <algorithm>
 
 #include "base/known_names.h"
+#include "base/progress.h"
 #include "formats/meshes/glass_pane.h"
 #include "formats/meshes/mesh_nodes.h"
 #include "formats/meshes/model_node.h"
+#include "formats/readers/local_origin.h"
 #include "formats/readers/packed_file.h"
 #include "formats/readers/readers.h"
 #include "formats/terrain/terrain_heights.h"
@@ -110,6 +112,11 @@ GroundOnMap ground_below(const Node& node, SceneBuilder& builder, std::string& m
 glm::vec3 offset_in_scene(const Model& model, const Node& node, SceneBuilder& builder) {
   constexpr double far_m = 50'000.0;  // floats end at millimetres there, and no city is so large
   if (model.origin == glm::dvec3(0.0)) return glm::vec3(0.0f);
+  // A script may take the coordinates of a national grid off itself.
+  const glm::dvec3 position(node.vec3("position"));
+  if (glm::length(glm::dvec2(position)) > formats::max_local_m &&
+      glm::length(position + model.origin) < far_m)
+    return glm::vec3(model.origin);
   Scene& scene = builder.scene;
   if (scene.origin == glm::dvec3(0.0)) scene.origin = model.origin;
   if (scene.map.empty() && !model.map.empty())
@@ -193,7 +200,8 @@ void build_model(const Node& node, SceneBuilder& builder, const formats::Readers
   const PlayedAnimation played = animation_of(*object.model, node, builder);
   std::vector<glm::vec3> positions = node.points("positions");
   if (positions.empty()) positions.emplace_back(0.0f);
-  for (std::size_t i = 0; i < positions.size(); ++i) {
+  Progress progress(fmt::format("placing {}", name), positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i, progress.advance()) {
     object.name = i == 0 ? name : fmt::format("{} {}", name, i + 1);
     glm::mat4 moved(1.0f);
     moved[3] = glm::vec4(positions[i], 1.0f);

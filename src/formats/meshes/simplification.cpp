@@ -19,9 +19,7 @@ Mesh compacted(const Mesh& mesh, const std::vector<std::uint32_t>& indices) {
   for (const std::uint32_t old : indices) {
     if (new_index[old] == unused) {
       new_index[old] = std::uint32_t(result.positions.size());
-      result.positions.push_back(mesh.positions[old]);
-      if (!mesh.normals.empty()) result.normals.push_back(mesh.normals[old]);
-      if (!mesh.uvs.empty()) result.uvs.push_back(mesh.uvs[old]);
+      append_vertex(result, mesh, old);
     }
     result.indices.push_back(new_index[old]);
   }
@@ -56,9 +54,8 @@ Mesh without_needless_vertices(const Mesh& mesh, float max_crease_deg) {
     const std::uint32_t index = same != here.end() ? *same : std::uint32_t(result.positions.size());
     if (same == here.end()) {
       here.push_back(index);
-      result.positions.push_back(position), result.normals.push_back(normal);
+      append_vertex(result, mesh, old);
       sums.emplace_back(0.0f);
-      if (!mesh.uvs.empty()) result.uvs.push_back(mesh.uvs[old]);
     }
     sums[index] += normal;
     result.indices.push_back(index);

@@ -86,6 +86,33 @@ void take_warnings(Taker& taker, Errors& warnings) {
   }
 }
 
+std::string bytes_of_account(const scene::FileAccount& account) {
+  std::string bytes;
+  append_text(bytes, account.format());
+  append_value(bytes, std::uint64_t(account.lines().size()));
+  for (const scene::AccountLine& line : account.lines()) {
+    append_value(bytes, line.fate);
+    append_text(bytes, line.kind), append_text(bytes, line.reason);
+    append_value(bytes, std::uint64_t(line.count));
+    append_value(bytes, std::uint64_t(line.names.size()));
+    for (const std::string& name : line.names) append_text(bytes, name);
+  }
+  return bytes;
+}
+
+scene::FileAccount take_account(Taker& taker) {
+  scene::FileAccount account(take_text(taker));
+  for (auto left = taker.take<std::uint64_t>(); left > 0 && !taker.has_ended_early(); --left) {
+    const auto fate = std::min(taker.take<std::uint8_t>(), std::uint8_t(scene::Fate::left_out));
+    const std::string kind = take_text(taker), reason = take_text(taker);
+    const auto count = std::size_t(taker.take<std::uint64_t>());
+    auto names = taker.take<std::uint64_t>();
+    account.add(scene::Fate(fate), kind, reason, "", count);
+    for (; names > 0 && !taker.has_ended_early(); --names) account.name_last(take_text(taker));
+  }
+  return account;
+}
+
 Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput& output) {
   Taker taker(input);
   const Order order = taker.take<Order>();
@@ -98,23 +125,24 @@ Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput
   std::optional<glm::dvec2> place_deg;
   reading.place_deg = &place_deg;
   Errors warnings;
-  const LeftInWorker<const Result<scene::Model>> read_model(
-      new Result<scene::Model>(read(file, reading, warnings)));
-  const Result<scene::Model>& model = *read_model;
-  if (!model) return model.errors();
-  std::string front = bytes_of_warnings(warnings);
+  const LeftInWorker<const Result<FileContent>> read_content(
+      new Result<FileContent>(read(file, reading, warnings)));
+  const Result<FileContent>& content = *read_content;
+  if (!content) return content.errors();
+  const scene::Model& model = content->model;
+  std::string front = bytes_of_warnings(warnings) + bytes_of_account(content->account);
   append_value(front, place_to_send(place_deg));
-  const std::uint64_t size = byte_count(*model);
+  const std::uint64_t size = byte_count(model);
   if (Status status = check_memory(size, file.string() + ": its content"); !status) return status;
   const std::span<std::byte> bytes = output.allocate(front.size() + std::size_t(size));
   if (bytes.empty()) return error("{}: there is no memory for its {} bytes", file.string(), size);
   std::memcpy(bytes.data(), front.data(), front.size());
-  put_bytes(*model, bytes.subspan(front.size()));
+  put_bytes(model, bytes.subspan(front.size()));
   return Done{};
 }
 
-Result<scene::Model> read_isolated(IsolatedWork work, const fs::path& file, const ModelReading& reading,
-                                   Errors& warnings) {
+Result<FileContent> read_isolated(IsolatedWork work, const fs::path& file, const ModelReading& reading,
+                                  Errors& warnings) {
   const std::string subject = file.string();
   if (reading.ground) return error("{}: its reader knows no ground=; leave it out", subject);
   std::string input;
@@ -126,11 +154,14 @@ Result<scene::Model> read_isolated(IsolatedWork work, const fs::path& file, cons
   const std::string_view bytes(reinterpret_cast<const char*>(made->bytes().data()), made->bytes().size());
   Taker taker(bytes);
   take_warnings(taker, warnings);
+  scene::FileAccount account = take_account(taker);
   const std::optional<glm::dvec2> place_deg = take_place(taker);
   if (reading.place_deg) *reading.place_deg = place_deg;
   if (Status status = check_memory(taker.rest().size(), subject + ": its content"); !status)
     return status.errors();
-  return model_of(taker.rest(), subject);
+  Result<scene::Model> model = model_of(taker.rest(), subject);
+  if (!model) return model.errors();
+  return FileContent{*std::move(model), std::move(account)};
 }
 
 }  // namespace parvis::formats

@@ -9,8 +9,8 @@
 namespace parvis::formats {
 
 /// A reader as a plain function, which the child process shares with the program.
-using ReadFunction = Result<scene::Model>(const std::filesystem::path& file, const ModelReading& reading,
-                                          Errors& warnings);
+using ReadFunction = Result<FileContent>(const std::filesystem::path& file, const ModelReading& reading,
+                                         Errors& warnings);
 
 /// What a child that reads `file` may use: files below its folder, and memory and time by its size.
 IsolationLimits limits_for(const std::filesystem::path& file);
@@ -20,14 +20,19 @@ std::string bytes_of_warnings(const Errors& warnings);
 /// Adds the warnings at the front of what a child has returned to `warnings`.
 void take_warnings(Taker& taker, Errors& warnings);
 
-/// In the child: reads the file that `input` names and fills `output` with warnings and model.
+/// An account as flat bytes, which stand behind the warnings; lines and names are bounded when it is taken.
+std::string bytes_of_account(const scene::FileAccount& account);
+/// The account at the front of what a child has returned.
+scene::FileAccount take_account(Taker& taker);
+
+/// In the child: reads the file that `input` names and fills `output` with warnings, account and model.
 Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput& output);
 
 /// In the program: has `work` read the file, and checks what comes back. The child may open files below the
 /// file's own folder alone, and has time and memory by the size of the file. A reading with a ground
 /// (`ModelReading::ground`) is an error: the child cannot ask for heights.
-Result<scene::Model> read_isolated(IsolatedWork work, const std::filesystem::path& file,
-                                   const ModelReading& reading, Errors& warnings);
+Result<FileContent> read_isolated(IsolatedWork work, const std::filesystem::path& file,
+                                  const ModelReading& reading, Errors& warnings);
 
 /// The reader `read` in a child process: a crash, an abort, an exit, an endless loop or a lack of memory in
 /// it is an error that names the file.

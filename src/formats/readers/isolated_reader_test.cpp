@@ -23,15 +23,18 @@ scene::Model full_model() {
   scene::Model model;
   model.name = "all";
   model.origin = {85000.0, 447000.0, 1.0};
-  model.textures.push_back({"t", Image8(2, 1, 4, 7), false, true});
+  model.textures.push_back({"t", Image8(2, 1, 4, 7), false, scene::Wrap::mirror, scene::Wrap::clamp});
   model.materials.push_back(
       {.name = "m", .roughness = 0.3f, .base_colour_texture = 0, .is_mirror_like = true});
+  model.materials[0].own_mappings.emplace().normal.takes_second_uvs = true;
   model.nodes.push_back({.name = "arm", .parent = 0, .translation = {1, 2, 3}});
   scene::Part part;
   part.object = "sail";
   part.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
   part.mesh.normals.assign(3, {0, -1, 0});
   part.mesh.uvs.assign(3, {0.5f, 0.25f});
+  part.mesh.second_uvs.assign(3, {2.0f, 1.0f});
+  part.mesh.colours.assign(3, {1.0f, 0.5f, 0.25f, 1.0f});
   part.mesh.indices = {0, 1, 2};
   part.node = 1, part.is_backdrop = true;
   auto deformation = std::make_shared<scene::Deformation>();
@@ -82,13 +85,15 @@ TEST(ModelBytes, IndicesAndCountsThatLieAreErrors) {
   refuse("image", [](scene::Model& m) { m.textures[0].image.width = 1 << 30; });
   refuse("alpha", [](scene::Model& m) { m.materials[0].alpha_mode = scene::Alpha(77); });
   refuse("animated node", [](scene::Model& m) { m.animations[0].channels[0].node = 2; });
+  refuse("wraps", [](scene::Model& m) { m.textures[0].wrap_u = scene::Wrap(7); });
+  refuse("colours", [](scene::Model& m) { m.parts[0].mesh.colours.pop_back(); });
   refuse("keys", [](scene::Model& m) { m.animations[0].channels[0].times_s.push_back(3); });
   refuse("weights", [](scene::Model& m) { m.animations[0].weights[0].values.clear(); });
 }
 
 /// What the file says is done to the reader.
-Result<scene::Model> obedient(const std::filesystem::path& file, const ModelReading& reading,
-                              Errors& warnings) {
+Result<FileContent> obedient(const std::filesystem::path& file, const ModelReading& reading,
+                             Errors& warnings) {
   std::string order;
   std::ifstream(file) >> order;
   if (order == "crash") std::abort();
@@ -104,7 +109,11 @@ Result<scene::Model> obedient(const std::filesystem::path& file, const ModelRead
   warnings.push_back({"a word", {file.string(), 5, 6}});
   scene::Model model = full_model();
   if (reading.cell_m) model.name = fmt::format("cells of {}", *reading.cell_m);
-  return model;
+  scene::FileAccount account("X");
+  account.used("sails", 3);
+  account.left_out("oars", "they are not drawn", "port");
+  account.left_out("oars", "they are not drawn", "starboard");
+  return FileContent{std::move(model), std::move(account)};
 }
 
 TEST(IsolatedReader, WhateverAReaderDoesIsAModelOrAnError) {
@@ -113,8 +122,8 @@ TEST(IsolatedReader, WhateverAReaderDoesIsAModelOrAnError) {
   const ReadModel read = isolated<obedient>();
   const auto message = [&](const char* order) {
     Errors warnings;
-    const Result<scene::Model> model = read(folder.write("inner/file.x", order), {}, warnings);
-    return model ? model->name : to_string(model.errors());
+    const Result<FileContent> content = read(folder.write("inner/file.x", order), {}, warnings);
+    return content ? content->model.name : to_string(content.errors());
   };
   for (const char* order : {"crash", "exit", "throw"}) {  // the first of them starts the server, too
     EXPECT_NE(message(order).find("file.x"), std::string::npos) << message(order);
@@ -124,9 +133,14 @@ TEST(IsolatedReader, WhateverAReaderDoesIsAModelOrAnError) {
   EXPECT_EQ(message("write").find("wrote"), std::string::npos);
   EXPECT_EQ(message("escape"), "all") << "on a kernel without Landlock";
   Errors warnings;
-  const Result<scene::Model> model = read(folder.write("inner/file.x", "read"), {.cell_m = 2.5}, warnings);
-  ASSERT_TRUE(model.ok());
-  EXPECT_EQ(model->name, "cells of 2.5");
+  const Result<FileContent> content = read(folder.write("inner/file.x", "read"), {.cell_m = 2.5}, warnings);
+  ASSERT_TRUE(content.ok());
+  EXPECT_EQ(content->model.name, "cells of 2.5");
+  const std::vector<scene::AccountLine>& lines = content->account.lines();
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].count, 3u);
+  EXPECT_EQ(lines[1].fate, scene::Fate::left_out);
+  EXPECT_EQ(lines[1].names, (std::vector<std::string>{"port", "starboard"}));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].where.line, 5);
 }

@@ -112,7 +112,15 @@ void transfer_texture(Io& io, T& texture) {
   io.array(texture.name);
   io.value(texture.image.width), io.value(texture.image.height), io.value(texture.image.channels);
   io.array(texture.image.pixels);
-  io.value(texture.is_srgb), io.value(texture.repeats);
+  io.value(texture.is_srgb), io.value(texture.wrap_u), io.value(texture.wrap_v);
+}
+
+template <class Io, class T>
+void transfer_mappings(Io& io, T& m) {
+  if constexpr (!std::is_const_v<T>) m.own_mappings.emplace();
+  for (auto* mapping : {&m.own_mappings->normal, &m.own_mappings->surface, &m.own_mappings->emission,
+                        &m.own_mappings->occlusion})
+    io.value(mapping->texture_from_uv), io.value(mapping->takes_second_uvs);
 }
 
 template <class Io, class T>
@@ -123,7 +131,11 @@ void transfer_material(Io& io, T& m) {
   io.value(m.base_colour_texture), io.value(m.normal_texture);
   io.value(m.surface_texture), io.value(m.emission_texture), io.value(m.normal_scale);
   io.value(m.ior), io.value(m.absorption_per_m), io.value(m.thickness_m), io.value(m.relief_m);
+  io.value(m.occlusion_texture), io.value(m.occlusion_strength), io.value(m.alpha_cutoff);
   io.value(m.texture_from_mesh_uv), io.value(m.alpha_mode);
+  bool has_own = m.own_mappings.has_value();
+  io.value(has_own);
+  if (has_own) transfer_mappings(io, m);
   io.value(m.is_double_sided), io.value(m.is_mirror_like);
 }
 
@@ -146,6 +158,7 @@ template <class Io, class T>
 void transfer_part(Io& io, T& part) {
   io.array(part.object);
   io.array(part.mesh.positions), io.array(part.mesh.normals), io.array(part.mesh.uvs);
+  io.array(part.mesh.second_uvs), io.array(part.mesh.colours);
   io.array(part.mesh.indices);
   io.value(part.material), io.value(part.node), io.value(part.casts_shadow), io.value(part.is_backdrop);
   bool is_deformed = part.deformation != nullptr;
@@ -197,6 +210,7 @@ bool is_index(int index, std::size_t count) { return index >= 0 && std::size_t(i
 
 bool is_right(const Texture& texture) {
   const Image8& image = texture.image;
+  if (texture.wrap_u > Wrap::clamp || texture.wrap_v > Wrap::clamp) return false;
   if (image.width < 1 || image.height < 1 || image.channels != 4) return false;
   return checked_product({std::uint64_t(image.width), std::uint64_t(image.height), 4}) == image.pixels.size();
 }
@@ -205,6 +219,7 @@ bool is_right(const Material& material, std::size_t textures) {
   const auto names_one = [&](int texture) { return texture == no_index || is_index(texture, textures); };
   return names_one(material.base_colour_texture) && names_one(material.normal_texture) &&
          names_one(material.surface_texture) && names_one(material.emission_texture) &&
+         names_one(material.occlusion_texture) && material.alpha_cutoff > 0.0f &&
          material.alpha_mode <= Alpha::blend;
 }
 

@@ -102,12 +102,12 @@ TEST(PackedFile, DamagedBytesNeverCrash) {
 }
 
 /// A reader that gives the content as the model's name.
-Result<scene::Model> content_as_name(const std::filesystem::path& file, const ModelReading&, Errors&) {
+Result<FileContent> content_as_name(const std::filesystem::path& file, const ModelReading&, Errors&) {
   const Result<std::string> text = read_unpacked(file);
   if (!text) return text.errors();
   scene::Model model;
   model.name = *text;
-  return model;
+  return FileContent{std::move(model), scene::FileAccount("digits")};
 }
 
 bool has_mark(std::string_view front) { return front.starts_with("digits"); }

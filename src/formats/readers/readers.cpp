@@ -84,10 +84,17 @@ Result<scene::Model> Readers::read(const std::filesystem::path& file, const Mode
                     "extension of what it is",
                     extension);
   }
-  Result<scene::Model> model = reader->second.read(file, reading, warnings);
-  if (model) repair_names(*model);
+  Result<FileContent> content = reader->second.read(file, reading, warnings);
+  if (content) {
+    content->account.set_file(file.string());
+    content->account.repair_names();
+    for (Error& line : content->account.warnings()) warnings.push_back(std::move(line));
+    repair_names(content->model);
+    content->model.account = std::make_shared<const scene::FileAccount>(std::move(content->account));
+  }
   for (Error& warning : warnings) repair_utf8(warning.message);
-  return model;
+  if (!content) return content.errors();
+  return std::move(content->model);
 }
 
 }  // namespace parvis::formats

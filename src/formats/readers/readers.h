@@ -12,6 +12,7 @@
 
 #include "base/result.h"
 #include "formats/readers/ground_on_map.h"
+#include "scene/data/file_account.h"
 #include "scene/data/model.h"
 
 namespace parvis::formats {
@@ -31,10 +32,17 @@ struct ModelReading {
   std::optional<glm::dvec2>* place_deg = nullptr;
 };
 
-/// The model in metres, z up. Warnings (missing textures, which a placeholder stands for) are added to
-/// `warnings`.
-using ReadModel = std::function<Result<scene::Model>(const std::filesystem::path& file,
-                                                     const ModelReading& reading, Errors& warnings)>;
+/// What a reader makes of a file: the model in metres, z up, and the account of what the file holds. An
+/// account has no default, so a reader without one does not compile.
+struct FileContent {
+  scene::Model model;
+  scene::FileAccount account;
+};
+
+/// Warnings (missing textures, which a placeholder stands for) are added to `warnings`; what the account says
+/// was left out needs none.
+using ReadModel = std::function<Result<FileContent>(const std::filesystem::path& file,
+                                                    const ModelReading& reading, Errors& warnings)>;
 
 /// Whether the first bytes of a file (4096, or all that there are, unpacked) are those of a format.
 using LooksRight = bool (*)(std::string_view front);
@@ -52,7 +60,8 @@ class Readers {
   /// Extensions count in any case, and below that of a packing (.json.gz). Errors: a file whose extension
   /// nobody reads (it names those that are read), one that is packed where its reader takes none that are (it
   /// says what unpacks it), one whose content is of another format than its name, and what is no regular
-  /// file. Names in the model are valid UTF-8 whatever the file says.
+  /// file. Names in the model are valid UTF-8 whatever the file says. The model carries the account
+  /// (`Model::account`), whose short form is added to `warnings`.
   Result<scene::Model> read(const std::filesystem::path& file, const ModelReading& reading,
                             Errors& warnings) const;
 

@@ -4,17 +4,18 @@
 #include <sys/stat.h>
 
 #include "base/test_folder.h"
+#include "formats/readers/plain_account.h"
 
 namespace parvis::formats {
 namespace {
 
 /// A reader whose models are called `name`.
 ReadModel reader(const char* name) {
-  return [name](const std::filesystem::path&, const ModelReading& reading, Errors&) -> Result<scene::Model> {
+  return [name](const std::filesystem::path&, const ModelReading& reading, Errors&) -> Result<FileContent> {
     scene::Model model;
     model.name = name;
     if (reading.cell_m) model.name += " in cells";
-    return model;
+    return with_plain_account("letters", std::move(model));
   };
 }
 
@@ -39,6 +40,35 @@ TEST(Readers, AreFoundByExtensionInAnyCase) {
   const std::string unknown = read_by(readers, folder.write("c.xyz", "digits"));
   for (const char* expected : {"c.xyz", "\".xyz\"", ".123, .abc, .abd"})
     EXPECT_NE(unknown.find(expected), std::string::npos) << unknown;
+}
+
+TEST(Readers, TheModelCarriesTheAccountAndItsShortFormIsAWarning) {
+  const TestFolder folder;
+  Readers readers;
+  readers.add(
+      {".abc"},
+      [](const std::filesystem::path&, const ModelReading&, Errors&) -> Result<FileContent> {
+        scene::FileAccount account("letters");
+        account.used("letters", 20);
+        account.changed("letters", "in capitals", "x");
+        account.left_out("letters", "not of this alphabet",
+                         "\xff"
+                         "th");
+        return FileContent{{}, std::move(account)};
+      },
+      is_any);
+  Errors warnings;
+  const Result<scene::Model> model = readers.read(folder.write("b.abc", ""), {}, warnings);
+  ASSERT_TRUE(model.ok());
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(to_string(warnings).find("b.abc: 1 letters left out: not of this alphabet (\ufffdth)"),
+            std::string::npos)
+      << to_string(warnings);
+  ASSERT_NE(model->account, nullptr);
+  EXPECT_EQ(model->account->count(scene::Fate::used), 20u);
+  EXPECT_NE(model->account->text().find("b.abc: letters\n  20 letters used\n  1 letters changed"),
+            std::string::npos)
+      << model->account->text();
 }
 
 TEST(Readers, ContentOfAnotherFormatIsRefused) {

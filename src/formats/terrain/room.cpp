@@ -1,14 +1,16 @@
 #include "formats/terrain/room.h"
 
 #include "formats/readers/isolated_reader.h"
+#include "formats/readers/plain_account.h"
 #include "formats/terrain/terrain.h"
 
 namespace parvis::terrain {
 namespace {
 
-Result<scene::Model> read_grid(const std::filesystem::path& file, const formats::ModelReading& reading,
-                               Errors& warnings) {
-  return scene::read_terrain(file, reading.cell_m, warnings, reading.place_deg, reading.map);
+Result<formats::FileContent> read_grid(const std::filesystem::path& file,
+                                       const formats::ModelReading& reading, Errors& warnings) {
+  return formats::with_plain_account(
+      "GeoTIFF", scene::read_terrain(file, reading.cell_m, warnings, reading.place_deg, reading.map));
 }
 
 /// TIFF and BigTIFF, of either byte order.

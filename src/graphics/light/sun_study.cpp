@@ -299,8 +299,10 @@ std::string to_string(const OpenSpaceRule& rule) {
 namespace {
 
 Status write_model(const std::filesystem::path& file, const SunStudy& study) {
-  scene::Texture scale{
-      .name = "sun_hours", .image = Image8(256, 4, 4, 255), .is_srgb = true, .repeats = false};
+  scene::Texture scale{.name = "sun_hours",
+                       .image = Image8(256, 4, 4, 255),
+                       .wrap_u = scene::Wrap::clamp,
+                       .wrap_v = scene::Wrap::clamp};
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 256; ++x) {
       const glm::u8vec3 colour(glm::round(hours_colour((x + 0.5) / 256.0)));

@@ -277,7 +277,7 @@ TEST_F(LitObjects, HaveTheLightThatGroundWithASurfaceTextureGivesBack) {
     const auto ground = scene::model_of(scene::ground(40), scene::matt(vec3(0.5f)));
     Image8 texel(1, 1, 4);
     texel.pixels = {255, 255, metallic, 255};
-    ground->textures.push_back({"surface", std::move(texel), false, true});
+    ground->textures.push_back({"surface", std::move(texel), false});
     ground->materials[0].surface_texture = 0, ground->materials[0].metallic = 1.0f;
     EXPECT_TRUE(scene::write_gltf(folder_.path() / "paving.glb", *ground));
     Running scene =

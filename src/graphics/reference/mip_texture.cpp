@@ -7,10 +7,11 @@
 
 namespace parvis::reference {
 
-MipTexture::MipTexture(const scene::Texture& texture, bool is_cutout)
-    : levels_(scene::mip_levels(texture, is_cutout)),
+MipTexture::MipTexture(const scene::Texture& texture, int visible_alpha)
+    : levels_(scene::mip_levels(texture, visible_alpha)),
       value_of_byte_(scene::values_of_bytes(texture.is_srgb).data()),
-      repeats_(texture.repeats) {}
+      wrap_u_(texture.wrap_u),
+      wrap_v_(texture.wrap_v) {}
 
 glm::vec4 MipTexture::texel(const Image8& level, int x, int y) const {
   const std::uint8_t* p = level.at(x, y);
@@ -19,14 +20,14 @@ glm::vec4 MipTexture::texel(const Image8& level, int x, int y) const {
 
 glm::vec4 MipTexture::bilinear(const Image8& level, glm::vec2 uv) const {
   // Coordinates lie in 0..1, and so x and y above -1.
-  const auto wrapped = [&](int i, int size) {
+  const auto wrapped = [](int i, int size, scene::Wrap wrap) {
     if (i >= 0 && i < size) return i;
-    return (i < 0) == repeats_ ? size - 1 : 0;
+    return (i < 0) == (wrap == scene::Wrap::repeat) ? size - 1 : 0;
   };
   const float x = uv.x * float(level.width) - 0.5f, y = uv.y * float(level.height) - 0.5f;
   const int left = int(x + 1.0f) - 1, top = int(y + 1.0f) - 1;
-  const int x0 = wrapped(left, level.width), x1 = wrapped(left + 1, level.width);
-  const int y0 = wrapped(top, level.height), y1 = wrapped(top + 1, level.height);
+  const int x0 = wrapped(left, level.width, wrap_u_), x1 = wrapped(left + 1, level.width, wrap_u_);
+  const int y0 = wrapped(top, level.height, wrap_v_), y1 = wrapped(top + 1, level.height, wrap_v_);
   const float fx = x - float(left), fy = y - float(top);
   return glm::mix(glm::mix(texel(level, x0, y0), texel(level, x1, y0), fx),
                   glm::mix(texel(level, x0, y1), texel(level, x1, y1), fx), fy);
@@ -34,8 +35,7 @@ glm::vec4 MipTexture::bilinear(const Image8& level, glm::vec2 uv) const {
 
 glm::vec4 MipTexture::sample(glm::vec2 uv, float texels) const {
   uv = glm::clamp(uv, glm::vec2(-1e6f), glm::vec2(1e6f));
-  // Where the picture does not repeat, its edge goes on.
-  uv = repeats_ ? uv - glm::vec2(std::floor(uv.x), std::floor(uv.y)) : glm::clamp(uv, 0.0f, 1.0f);
+  uv = {scene::wrapped(uv.x, wrap_u_), scene::wrapped(uv.y, wrap_v_)};
   const float level = std::clamp(std::log2(std::max(texels, 1.0f)), 0.0f, float(levels_.size() - 1));
   const std::size_t fine = std::size_t(level), coarse = std::min(fine + 1, levels_.size() - 1);
   const float t = level - float(fine);

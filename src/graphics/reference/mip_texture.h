@@ -11,7 +11,7 @@ namespace parvis::reference {
 class MipTexture {
  public:
   /// The same levels as the renderer's (scene/data/mip_levels.h).
-  MipTexture(const scene::Texture& texture, bool is_cutout);
+  MipTexture(const scene::Texture& texture, int visible_alpha);
 
   /// Linear colour (or data) and alpha at texture coordinates; `texels` is the width of what the ray sees, in
   /// texels of the finest level.
@@ -26,7 +26,7 @@ class MipTexture {
 
   std::vector<Image8> levels_;
   const float* value_of_byte_;  ///< of colour channels
-  bool repeats_;
+  scene::Wrap wrap_u_, wrap_v_;
 };
 
 }  // namespace parvis::reference

@@ -51,9 +51,15 @@ float alpha_of(const Candidate& candidate, bool is_shadow) {
         traced_hit(place, candidate.triangle, {candidate.u, candidate.v}, is_shadow ? along : -along, 0.0f));
   }
   const scene::Material& material = *place.material;
-  if (material.base_colour_texture == scene::no_index) return material.alpha;
+  float alpha = material.alpha;
+  if (const std::vector<glm::vec4>& colours = place.mesh->colours; !colours.empty()) {
+    const std::uint32_t* corner = place.mesh->indices.data() + 3 * std::size_t(candidate.triangle);
+    alpha *= (1.0f - candidate.u - candidate.v) * colours[corner[0]].w + candidate.u * colours[corner[1]].w +
+             candidate.v * colours[corner[2]].w;
+  }
+  if (material.base_colour_texture == scene::no_index) return alpha;
   const glm::vec2 uv = texture_coordinates(place, candidate.triangle, candidate.u, candidate.v);
-  return material.alpha * (*place.textures)[std::size_t(material.base_colour_texture)].sample(uv, 1.0f).w;
+  return alpha * (*place.textures)[std::size_t(material.base_colour_texture)].sample(uv, 1.0f).w;
 }
 
 bool stops_light(const Candidate& candidate, Passage& passage, bool is_shadow) {
@@ -61,7 +67,8 @@ bool stops_light(const Candidate& candidate, Passage& passage, bool is_shadow) {
   if (candidate.place.is_backdrop && (is_shadow || passage.passes_backdrops)) return false;
   if (!passage.sees_backs && !material.is_double_sided && candidate.is_back) return false;
   if (material.alpha_mode == scene::Alpha::opaque) return true;
-  if (material.alpha_mode == scene::Alpha::cutout) return alpha_of(candidate, is_shadow) >= 0.5f;
+  if (material.alpha_mode == scene::Alpha::cutout)
+    return alpha_of(candidate, is_shadow) >= material.alpha_cutoff;
   return !candidate.place.is_painted_shadow && passage.random.uniform() < alpha_of(candidate, is_shadow);
 }
 
@@ -72,7 +79,8 @@ bool stops_as_drawn(const Candidate& candidate, bool is_shadow) {
   const bool lets_through = material.alpha_mode == scene::Alpha::blend || material.refracts();
   if (is_shadow && (!candidate.place.casts_shadow || lets_through)) return false;
   if (!material.is_double_sided && candidate.is_back != is_shadow) return false;
-  return material.alpha_mode != scene::Alpha::cutout || alpha_of(candidate, is_shadow) >= 0.5f;
+  return material.alpha_mode != scene::Alpha::cutout ||
+         alpha_of(candidate, is_shadow) >= material.alpha_cutoff;
 }
 
 /// Of a triangle in the world, as the float transform places them.

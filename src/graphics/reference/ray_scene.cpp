@@ -293,9 +293,9 @@ const std::vector<MipTexture>& RayScene::textures_of(const scene::Model& model) 
   auto& textures = textures_[&model];
   if (textures) return *textures;
   textures = std::make_unique<std::vector<MipTexture>>();
-  const std::vector<char> is_cutout = scene::cutout_textures(model);
+  const std::vector<int> visible = scene::visible_alphas(model);
   for (std::size_t t = 0; t < model.textures.size(); ++t)
-    textures->emplace_back(model.textures[t], is_cutout[t] != 0);
+    textures->emplace_back(model.textures[t], visible[t]);
   return *textures;
 }
 

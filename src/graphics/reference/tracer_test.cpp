@@ -168,7 +168,7 @@ TEST(Tracer, HolesOfCutoutPartsLetThrough) {
   auto model = std::make_shared<scene::Model>(*scene.objects[0].model);
   Image8 half(2, 2, 4, 255);
   half.at(0, 0)[3] = half.at(0, 1)[3] = 0;  // the west half
-  model->textures.push_back({"half", half, true, false});
+  model->textures.push_back({"half", half, true, scene::Wrap::clamp, scene::Wrap::clamp});
   scene.objects[0].model = model;
   const RayScene rays(scene);
   EXPECT_FALSE(rays.nearest_hit({{-4, -10, 0}, {0, 1, 0}}));

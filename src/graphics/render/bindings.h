@@ -22,6 +22,7 @@ enum TextureUnit : GLuint {
   bounced_light_unit,
   vertex_light_unit,
   inserted_shadow_unit,
+  occlusion_unit,
   first_unit_above,
   first_drawable_unit = 24
 };
@@ -33,10 +34,10 @@ enum UniformBlock : GLuint { frame_block, material_block, bodies_block, first_bl
 /// sky_lookup.glsl or sun_lookup.glsl. What the program lacks of them is left out.
 inline void assign_bindings(const gl::Program& program) {
   constexpr const char* samplers[]{
-      "base_colour_texture", "normal_texture", "surface_texture",        "emission_texture",
-      "sky_texture",         "shadow_maps",    "sky_visibility_texture", "traced_sun_texture",
-      "lamp_table",          "lamp_maps",      "bounced_light_texture",  "vertex_light_texture",
-      "inserted_shadow_maps"};
+      "base_colour_texture",  "normal_texture",   "surface_texture",        "emission_texture",
+      "sky_texture",          "shadow_maps",      "sky_visibility_texture", "traced_sun_texture",
+      "lamp_table",           "lamp_maps",        "bounced_light_texture",  "vertex_light_texture",
+      "inserted_shadow_maps", "occlusion_texture"};
   for (GLuint unit = 0; unit < first_unit_above; ++unit)
     if (program.declares(samplers[unit])) program.set(samplers[unit], int(unit));
   constexpr const char* blocks[]{"Frame", "Material", "Bodies"};

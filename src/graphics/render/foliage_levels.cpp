@@ -100,9 +100,8 @@ FoliageLevel with_pieces(const Mesh& mesh, const Pieces& pieces, std::uint32_t l
     if (piece.order >= limit) continue;
     place[vertex] = std::uint32_t(kept.positions.size());
     const glm::vec3 middle = piece.bounds.centre();
-    kept.positions.push_back(middle + enlarged * (mesh.positions[vertex] - middle));
-    kept.normals.push_back(mesh.normals[vertex]);
-    kept.uvs.push_back(mesh.uvs[vertex]);
+    append_vertex(kept, mesh, vertex);
+    kept.positions.back() = middle + enlarged * (mesh.positions[vertex] - middle);
     level.vertices.push_back(vertex);
   }
   for (const std::uint32_t vertex : mesh.indices)

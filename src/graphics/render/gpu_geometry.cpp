@@ -11,6 +11,13 @@ MeshRange GpuGeometry::append(const Mesh& mesh, std::span<const float> openness)
     vertices_.push_back(
         {mesh.positions[i], mesh.normals[i], mesh.uvs[i], openness.empty() ? 1.0f : openness[i]});
   indices_.insert(indices_.end(), mesh.indices.begin(), mesh.indices.end());
+  if (!mesh.colours.empty() || !mesh.second_uvs.empty() || !details_.empty()) {
+    const auto first = std::size_t(range.base_vertex);
+    details_.resize(vertices_.size());
+    for (std::size_t i = 0; i < mesh.colours.size(); ++i) details_[first + i].colour = mesh.colours[i];
+    for (std::size_t i = 0; i < mesh.second_uvs.size(); ++i)
+      details_[first + i].second_uv = mesh.second_uvs[i];
+  }
   return range;
 }
 
@@ -31,6 +38,8 @@ MeshRange GpuGeometry::add_triangles(const MeshRange& mesh, const std::vector<st
 
 void GpuGeometry::upload() {
   vertex_buffer_ = gl::immutable_buffer(std::span<const Vertex>(vertices_), GL_DYNAMIC_STORAGE_BIT);
+  if (!details_.empty()) detail_buffer_ = gl::immutable_buffer(std::span<const Detail>(details_));
+  details_ = {};
   index_buffer_ = gl::immutable_buffer(std::span<const std::uint32_t>(indices_));
   vertices_.erase(vertices_.begin(), vertices_.begin() + std::ptrdiff_t(rigid_vertices_));
   vertices_.shrink_to_fit();

@@ -28,6 +28,13 @@ class GpuGeometry {
     float openness;  ///< scene::LeafOpenness
   };
 
+  /// What only some meshes have: a second buffer, with an entry for each vertex if any mesh of the scene has
+  /// it.
+  struct Detail {
+    glm::vec4 colour{1.0f};
+    glm::vec2 second_uv{0.0f};
+  };
+
   /// Appends a rigid mesh; all of them come before the first deforming one. `openness`: by vertex; empty: all
   /// is open.
   MeshRange add(const Mesh& mesh, std::span<const float> openness = {});
@@ -45,6 +52,7 @@ class GpuGeometry {
   void upload_deformed();
 
   GLuint vertex_buffer() const { return vertex_buffer_.name(); }  ///< interleaved Vertex; 0 before `upload`
+  GLuint detail_buffer() const { return detail_buffer_.name(); }  ///< of Detail; 0 where no mesh has any
   /// Buffer of 32-bit indices relative to MeshRange::base_vertex.
   GLuint index_buffer() const { return index_buffer_.name(); }
 
@@ -52,9 +60,10 @@ class GpuGeometry {
   MeshRange append(const Mesh& mesh, std::span<const float> openness);
 
   std::vector<Vertex> vertices_;  ///< after `upload`: only those of deforming meshes
+  std::vector<Detail> details_;
   std::vector<std::uint32_t> indices_;
   std::size_t rigid_vertices_ = 0;
-  gl::Buffer vertex_buffer_, index_buffer_;
+  gl::Buffer vertex_buffer_, detail_buffer_, index_buffer_;
 };
 
 }  // namespace parvis::render

@@ -31,7 +31,8 @@ using glm::vec4;
 Material block_of(const scene::Material& material) {
   const glm::mat3 rows = glm::transpose(material.texture_from_mesh_uv);
   Material block{};
-  block.material_base_colour = vec4(material.base_colour, material.alpha);
+  const float alpha_scale = material.alpha_mode == scene::Alpha::cutout ? 0.5f / material.alpha_cutoff : 1.0f;
+  block.material_base_colour = vec4(material.base_colour, alpha_scale * material.alpha);
   block.material_emission = vec4(material.emission, material.normal_scale);
   block.material_layers = {material.metallic, material.roughness, material.clear_coat,
                            material.clear_coat_roughness};
@@ -40,6 +41,16 @@ Material block_of(const scene::Material& material) {
   block.material_relief_m = material.relief_m;
   block.material_mirrors = material.is_mirror_like ? 1.0f : 0.0f;
   block.material_ior = material.ior;
+  block.material_occlusion = material.occlusion_strength;
+  if (!material.own_mappings) return block;
+  const auto put = [](const scene::TextureMapping& mapping, vec4& u, vec4& v) {
+    const glm::mat3 own_rows = glm::transpose(mapping.texture_from_uv);
+    u = vec4(own_rows[0], mapping.takes_second_uvs ? 1.0f : 0.0f), v = vec4(own_rows[1], 0.0f);
+  };
+  put(material.own_mappings->normal, block.material_normal_u, block.material_normal_v);
+  put(material.own_mappings->surface, block.material_surface_u, block.material_surface_v);
+  put(material.own_mappings->emission, block.material_emission_u, block.material_emission_v);
+  put(material.own_mappings->occlusion, block.material_occlusion_u, block.material_occlusion_v);
   return block;
 }
 
@@ -62,9 +73,9 @@ gl::Texture upload(const scene::Texture& source, const std::vector<Image8>& leve
     glTextureSubImage2D(texture.name(), GLint(level), 0, 0, levels[level].width, levels[level].height,
                         GL_RGBA, GL_UNSIGNED_BYTE, levels[level].pixels.data());
   glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY, has_fast_anisotropy() ? 16.0f : 1.0f);
-  const GLint wrap = source.repeats ? GL_REPEAT : GL_CLAMP_TO_EDGE;
-  glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, wrap);
-  glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, wrap);
+  constexpr GLint wraps[]{GL_REPEAT, GL_MIRRORED_REPEAT, GL_CLAMP_TO_EDGE};  // in the order of scene::Wrap
+  glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, wraps[std::size_t(source.wrap_u)]);
+  glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, wraps[std::size_t(source.wrap_v)]);
   return texture;
 }
 
@@ -77,6 +88,8 @@ std::uint16_t features_of(const scene::Material& material) {
   }
   if (material.surface_texture != scene::no_index) features |= surface_has_surface_map;
   if (material.emission_texture != scene::no_index) features |= surface_has_emission_map;
+  if (material.occlusion_texture != scene::no_index) features |= surface_has_occlusion_map;
+  if (material.own_mappings) features |= surface_has_own_mappings;
   if (material.clear_coat > 0.0f) features |= surface_has_coat;
   if (material.is_double_sided) features |= surface_has_backs;
   if (material.alpha_mode == scene::Alpha::cutout) features |= surface_has_holes;
@@ -270,10 +283,10 @@ void GpuScene::deform(const scene::Object& object, std::size_t o) {
 
 void GpuScene::upload_textures(const scene::Model& model) {
   first_texture_of_model_[&model] = textures_.size();
-  const std::vector<char> is_cutout = scene::cutout_textures(model);
+  const std::vector<int> visible = scene::visible_alphas(model);
   std::vector<std::vector<Image8>> levels(model.textures.size());
   parallel_for(levels.size(),
-               [&](std::size_t i) { levels[i] = scene::mip_levels(model.textures[i], is_cutout[i] != 0); });
+               [&](std::size_t i) { levels[i] = scene::mip_levels(model.textures[i], visible[i]); });
   for (std::size_t i = 0; i < levels.size(); ++i) textures_.push_back(upload(model.textures[i], levels[i]));
 }
 
@@ -281,15 +294,20 @@ void GpuScene::upload_textures(const scene::Model& model) {
 int GpuScene::add_materials(const scene::Model& model, const std::vector<scene::Material>& materials) {
   const std::size_t first_texture = first_texture_of_model_.at(&model);
   const int first = int(materials_.size());
+  std::vector<bool> has_colours(materials.size(), false);
   const auto texture_or = [&](int index, GLuint plain) {
     return index == scene::no_index ? plain : textures_[first_texture + std::size_t(index)].name();
   };
-  for (const scene::Material& material : materials) {
-    materials_.push_back({texture_or(material.base_colour_texture, white_),
-                          texture_or(material.normal_texture, flat_normal_),
-                          texture_or(material.surface_texture, white_),
-                          texture_or(material.emission_texture, white_), pass_of(material.alpha_mode),
-                          material.is_double_sided, material.is_mirror_like, features_of(material)});
+  for (const scene::Part& part : model.parts)
+    if (!part.mesh.colours.empty()) has_colours[std::size_t(part.material)] = true;
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    const scene::Material& material = materials[m];
+    materials_.push_back(
+        {texture_or(material.base_colour_texture, white_), texture_or(material.normal_texture, flat_normal_),
+         texture_or(material.surface_texture, white_), texture_or(material.emission_texture, white_),
+         texture_or(material.occlusion_texture, white_), pass_of(material.alpha_mode),
+         material.is_double_sided, material.is_mirror_like, features_of(material)});
+    if (has_colours[m]) materials_.back().features |= surface_has_colours;
     const Material block = block_of(material);
     const std::size_t offset = material_bytes_.size();
     material_bytes_.resize(offset + std::size_t(block_stride_));
@@ -424,6 +442,7 @@ void GpuScene::bind_material(int index) const {
   const GpuMaterial& material = materials_[std::size_t(index)];
   const GLuint textures[]{material.base_colour, material.normal, material.surface, material.emission};
   glBindTextures(0, 4, textures);
+  if (material.features & surface_has_occlusion_map) glBindTextureUnit(occlusion_unit, material.occlusion);
   glBindBufferRange(GL_UNIFORM_BUFFER, material_block, material_blocks_.name(),
                     GLintptr(index) * block_stride_, GLsizeiptr(sizeof(Material)));
   cull_faces(!material.is_double_sided);

@@ -43,10 +43,12 @@ enum SurfaceFeature : std::uint16_t {
   surface_has_holes = 32,
   surface_is_leaf = 64,  ///< cut out and translucent: small, many, in many layers
   surface_has_relief = 128,
-  surface_is_glass = 256,         ///< solid: refracts light
-  surface_has_vertex_light = 512  ///< of single objects, not of the material: their diffuse light is given
+  surface_is_glass = 256,          ///< solid: refracts light
+  surface_has_vertex_light = 512,  ///< of single objects, not of the material: their diffuse light is given
+  surface_has_own_mappings = 1024,
+  surface_has_colours = 2048,  ///< at the vertices of a part of this material
+  surface_has_occlusion_map = 4096
 };
-inline constexpr std::size_t surface_feature_combinations = 1024;
 
 /// True if hardware anisotropic filtering is affordable: on Mesa's software renderer it takes 30 times as
 /// long.
@@ -54,7 +56,8 @@ bool has_fast_anisotropy();
 
 /// A material as the GPU scene draws it; textures belong to the GPU scene.
 struct GpuMaterial {
-  GLuint base_colour, normal, surface, emission;  ///< textures; plain ones where the material has none
+  GLuint base_colour, normal, surface, emission,
+      occlusion;  ///< textures; plain ones where the material has none
   Pass pass;
   bool is_double_sided, is_mirror_like;
   std::uint16_t features;  ///< of SurfaceFeature
@@ -126,7 +129,8 @@ class GpuScene {
   static void cull_faces(bool culls);
   /// Buffer of GpuGeometry::Vertex, for vertex arrays of drawables.
   GLuint vertex_buffer() const { return geometry_.vertex_buffer(); }
-  GLuint index_buffer() const { return geometry_.index_buffer(); }  ///< 32-bit indices
+  GLuint detail_buffer() const { return geometry_.detail_buffer(); }  ///< GpuGeometry::Detail; may be 0
+  GLuint index_buffer() const { return geometry_.index_buffer(); }    ///< 32-bit indices
 
  private:
   void add_models(const scene::Scene& scene);

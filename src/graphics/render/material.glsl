@@ -5,6 +5,7 @@ uniform sampler2D base_colour_texture;
 uniform sampler2D normal_texture;
 uniform sampler2D surface_texture;
 uniform sampler2D emission_texture;
+uniform sampler2D occlusion_texture;
 
 vec2 texture_coordinates(vec2 mesh_uv) {
   vec3 p = vec3(mesh_uv, 1.0f);

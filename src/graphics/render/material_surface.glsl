@@ -40,8 +40,20 @@ vec2 through_relief(vec2 at, vec3 to_viewer, vec3 normal, vec2 along_x, vec2 alo
 }
 #endif
 
+#ifdef HAS_OWN_MAPPINGS
+// Coordinates of a texture that lies in a way of its own.
+vec2 own_coordinates(vec4 u, vec4 v) {
+  vec3 p = vec3(u.w > 0.5f ? second_uv : uv, 1.0f);
+  return vec2(dot(u.xyz, p), dot(v.xyz, p));
+}
+#endif
+
 vec3 normal_at(SeenPoint seen, vec2 texture_uv, vec2 along_x, vec2 along_y) {
 #ifdef HAS_NORMAL_MAP
+#ifdef HAS_OWN_MAPPINGS
+  texture_uv = own_coordinates(material_normal_u, material_normal_v);
+  along_x = dFdx(texture_uv), along_y = dFdy(texture_uv);
+#endif
   vec3 texel = looked_up(normal_texture, texture_uv, along_x, along_y).xyz;
   return mapped_normal(TextureFrame(dFdx(position), dFdy(position), along_x, along_y), seen.normal, texel,
                        material_emission.a);
@@ -56,20 +68,38 @@ vec4 base_at(vec2 texture_uv, vec2 along_x, vec2 along_y) {
 #else
   vec4 base = base_colour_at(texture_uv, along_x, along_y);
 #endif
+#ifdef HAS_COLOURS
+  base *= vertex_colour;
+#endif
   return vec4(base.rgb * material_base_colour.rgb, base.a * material_base_colour.a);
 }
 
 // Occlusion, roughness, metallic.
 vec3 detail_at(vec2 texture_uv, vec2 along_x, vec2 along_y) {
+  vec3 detail = vec3(1.0f);
 #ifdef HAS_SURFACE_MAP
-  return looked_up(surface_texture, texture_uv, along_x, along_y).rgb;
-#else
-  return vec3(1.0f);
+#ifdef HAS_OWN_MAPPINGS
+  texture_uv = own_coordinates(material_surface_u, material_surface_v);
 #endif
+  detail = looked_up(surface_texture, texture_uv, along_x, along_y).rgb;
+#endif
+#ifdef HAS_OCCLUSION_MAP
+#ifdef HAS_OWN_MAPPINGS
+  texture_uv = own_coordinates(material_occlusion_u, material_occlusion_v);
+#endif
+  detail.r = looked_up(occlusion_texture, texture_uv, along_x, along_y).r;
+#endif
+#if defined(HAS_SURFACE_MAP) || defined(HAS_OCCLUSION_MAP)
+  detail.r = mix(1.0f, detail.r, material_occlusion);
+#endif
+  return detail;
 }
 
 vec3 emission_at(vec2 texture_uv, vec2 along_x, vec2 along_y) {
 #ifdef HAS_EMISSION_MAP
+#ifdef HAS_OWN_MAPPINGS
+  texture_uv = own_coordinates(material_emission_u, material_emission_v);
+#endif
   return material_emission.rgb * looked_up(emission_texture, texture_uv, along_x, along_y).rgb;
 #else
   return material_emission.rgb;

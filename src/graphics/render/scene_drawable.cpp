@@ -24,6 +24,11 @@ gl::VertexArray make_vertex_array(const GpuScene& gpu) {
   attribute(1, 3, 12, 0);  // normal
   attribute(2, 2, 24, 0);  // uv
   attribute(9, 1, 32, 0);  // openness
+  if (gpu.detail_buffer() != 0) {
+    glVertexArrayVertexBuffer(name, 2, gpu.detail_buffer(), 0, sizeof(GpuGeometry::Detail));
+    attribute(10, 4, 0, 2);   // colour; without the buffer its alpha is 1, OpenGL's default
+    attribute(11, 2, 16, 2);  // second uv
+  }
   for (GLuint row = 0; row < 3; ++row) attribute(3 + row, 4, 16 * row, 1);
   glEnableVertexArrayAttrib(name, 6);
   glVertexArrayAttribIFormat(name, 6, 1, GL_UNSIGNED_INT, 48);  // object

@@ -5,6 +5,12 @@ const int base_layer = 0, coat_layer = 1;
 in vec3 position;
 in vec3 vertex_normal;
 in vec2 uv;
+#ifdef HAS_OWN_MAPPINGS
+in vec2 second_uv;
+#endif
+#ifdef HAS_COLOURS
+in vec4 vertex_colour;
+#endif
 #ifdef IS_LEAF
 in float leaf_sun;
 #ifdef IS_SPECK

@@ -3,6 +3,12 @@
 out vec3 position;       // in the world
 out vec3 vertex_normal;  // in the world, of any length
 out vec2 uv;
+#ifdef HAS_OWN_MAPPINGS
+out vec2 second_uv;
+#endif
+#ifdef HAS_COLOURS
+out vec4 vertex_colour;  // linear; multiplies the base colour
+#endif
 #ifdef IS_LEAF
 // Leaves and twigs are lit at their corners (leaf_light.glsl).
 out float leaf_sun;  // share of the sun that is seen

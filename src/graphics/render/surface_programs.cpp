@@ -17,6 +17,9 @@ gl::Defines defines_of(std::uint16_t features) {
   if (features & surface_has_holes) defines.emplace_back("HAS_HOLES", "");
   if (features & surface_is_leaf) defines.emplace_back("IS_LEAF", "");
   if (features & surface_has_vertex_light) defines.emplace_back("HAS_VERTEX_LIGHT", "");
+  if (features & surface_has_own_mappings) defines.emplace_back("HAS_OWN_MAPPINGS", "");
+  if (features & surface_has_colours) defines.emplace_back("HAS_COLOURS", "");
+  if (features & surface_has_occlusion_map) defines.emplace_back("HAS_OCCLUSION_MAP", "");
   if (features & surface_is_glass) defines.emplace_back("IS_GLASS", "");
   if (!has_fast_anisotropy()) defines.emplace_back("ANISOTROPY_BY_TAPS", "");
   return defines;
@@ -55,7 +58,7 @@ Result<SurfacePrograms> SurfacePrograms::create(const SurfaceSource& source,
 
 void SurfacePrograms::set(const char* uniform, int value) const {
   for (const Variants* variants : {&programs_, &one_sample_})
-    for (const gl::Program& program : *variants)
+    for (const auto& [features, program] : *variants)
       if (program.name()) program.set(uniform, value);
 }
 

@@ -1,9 +1,9 @@
 // Permutations of the surface shader for a scene's materials: a texture that a material lacks is not sampled.
 #pragma once
 
-#include <array>
 #include <map>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -39,7 +39,7 @@ class SurfacePrograms {
   /// The program of a material that was given to `create`.
   const gl::Program& of(const GpuMaterial& material, bool is_multisampled) const {
     const bool discards = (material.features & surface_has_holes) && !is_multisampled;
-    return (discards ? one_sample_ : programs_)[material.features];
+    return (discards ? one_sample_ : programs_).at(material.features);
   }
 
   /// The program of a surface that a room draws itself, for multisampled views; linked on first use. Null,
@@ -52,7 +52,7 @@ class SurfacePrograms {
  private:
   SurfaceSource source_;
   std::map<std::pair<std::string, std::string>, gl::Program> of_rooms_;  ///< by the room's two files
-  using Variants = std::array<gl::Program, surface_feature_combinations>;
+  using Variants = std::unordered_map<std::uint16_t, gl::Program>;
   Variants programs_;
   Variants one_sample_;  ///< of materials with holes, whose other programs need coverage by alpha
 };

@@ -15,6 +15,12 @@ layout(location = 3) in vec4 world_from_mesh_row0;
 layout(location = 4) in vec4 world_from_mesh_row1;
 layout(location = 5) in vec4 world_from_mesh_row2;
 layout(location = 6) in uint object;
+#ifdef HAS_COLOURS
+layout(location = 10) in vec4 mesh_colour;
+#endif
+#ifdef HAS_OWN_MAPPINGS
+layout(location = 11) in vec2 mesh_second_uv;
+#endif
 #ifdef IS_LEAF
 layout(location = 9) in float mesh_openness;  // share of the sky that the plant itself leaves open
 #endif
@@ -45,6 +51,12 @@ void surface_vertex() {
   vec3 c2 = vec3(world_from_mesh_row0.z, world_from_mesh_row1.z, world_from_mesh_row2.z);
   vertex_normal = mat3(cross(c1, c2), cross(c2, c0), cross(c0, c1)) * mesh_normal;
   uv = mesh_uv;
+#ifdef HAS_OWN_MAPPINGS
+  second_uv = mesh_second_uv;
+#endif
+#ifdef HAS_COLOURS
+  vertex_colour = mesh_colour;
+#endif
   bool receives = (object & no_shadow_received) == 0u;
   int number = int(object & ~no_shadow_received);
 #ifdef IS_LEAF

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_map>
 
 #include "graphics/render/fixed_parts.h"
 
@@ -75,10 +76,50 @@ bool have_ground(const std::vector<scene::Lane>& lanes, const Parts& parts) {
   return lanes.empty();
 }
 
+/// Of the objects' middles, half of which lie on either side of it along each axis: one that is far off does
+/// not move it.
+glm::vec2 middle_of(std::vector<glm::vec2> middles) {
+  glm::vec2 middle(0.0f);
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto half = middles.begin() + std::ptrdiff_t(middles.size() / 2);
+    std::ranges::nth_element(middles, half, {}, [&](const glm::vec2& each) { return each[axis]; });
+    middle[axis] = (*half)[axis];
+  }
+  return middle;
+}
+
+/// Warns of objects, few against all, that no view of the place shows.
+void check_distances(const scene::Scene& scene, Errors& warnings) {
+  constexpr float far_m = 30'000.0f;
+  std::unordered_map<const scene::Model*, Bounds> bounds;
+  std::vector<std::size_t> objects;
+  std::vector<Bounds> boxes;
+  std::vector<glm::vec2> middles;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const scene::Object& object = scene.objects[i];
+    const auto [box, is_new] = bounds.try_emplace(object.model.get());
+    if (is_new) box->second = scene::bounds(*object.model);
+    if (!object.is_visible || box->second.empty()) continue;
+    objects.push_back(i), boxes.push_back(transformed(object.world_from_model, box->second));
+    middles.emplace_back(boxes.back().centre());
+  }
+  if (objects.size() < 2) return;
+  const glm::vec2 middle = middle_of(middles);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const glm::vec2 nearest = glm::clamp(middle, glm::vec2(boxes[i].min), glm::vec2(boxes[i].max));
+    if (const float away_m = glm::distance(nearest, middle); away_m > far_m)
+      warnings.push_back(
+          error("\"{}\" lies {:.0f} km from the middle of the scene: its coordinates may be those of "
+                "another place or system; check position= and the model's file",
+                scene.objects[objects[i]].name, away_m / 1000.0f));
+  }
+}
+
 }  // namespace
 
 Errors check_place(const scene::Scene& scene) {
   Errors warnings;
+  check_distances(scene, warnings);
   if (scene.cameras.empty()) return warnings;
   Parts parts;
   render::for_each_fixed_object_part(scene, [&](const render::FixedPart& part) {

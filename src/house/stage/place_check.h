@@ -8,7 +8,8 @@ namespace parvis::house {
 
 /// A warning for each named camera that stands inside a wall or below the ground: the fixed, opaque faces
 /// that it sees first, up, down and to four sides, show it their backs. Cameras that follow an object are
-/// left out. And one where nothing lies below the scene's lanes.
+/// left out. One where nothing lies below the scene's lanes, and one for each visible object that lies many
+/// kilometres from all others: its coordinates are those of another place.
 Errors check_place(const scene::Scene& scene);
 
 }  // namespace parvis::house

@@ -143,6 +143,7 @@ void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn) {
     if (const Status status = set_reflection(methods::settings(play_.scene)); !status)
       fmt::print(stderr, "{}", to_string(status.errors()));
   width_ = size.x, height_ = size.y;
+  drawn_from_ = camera;
   pass_times_.begin_frame();
   render::FrameSteps steps;
   steps.end_pass = [&](const char* pass) { pass_times_.end_pass(pass); };
@@ -177,6 +178,15 @@ void Stage::display(GLuint framebuffer) const {
 Image8 Stage::picture() {
   if (refined_samples_ > 0) return shading::tone_mapped_picture(refined_.radiance(), play_.scene.exposure);
   return renderer_->read_picture(play_.scene.exposure);
+}
+
+Image8 Stage::whole_picture() {
+  const glm::ivec2 size(width_, height_);
+  if (refined_samples_ == 0 && size != glm::ivec2(renderer_->width(), renderer_->height())) {
+    reflections_->hold(double(methods::settings(play_.scene).budget_ms));
+    draw(Camera(drawn_from_), size, size);
+  }
+  return picture();
 }
 
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_per_pixel,

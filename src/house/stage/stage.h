@@ -119,6 +119,8 @@ class Stage {
   /// The last frame as displayed, tone-mapped with the scene's exposure; as drawn, where it was drawn
   /// smaller.
   Image8 picture();
+  /// The same in full resolution and with all levels of detail: drawn once more where the last frame was not.
+  Image8 whole_picture();
   /// The same view by the ray tracer, with the renderer's shadow maps; completely or a window of it.
   reference::TracedPicture trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                  const reference::PixelWindow& window = {});
@@ -138,6 +140,7 @@ class Stage {
   gl::PassTimes pass_times_;
   double held_ms_ = 0.0;  ///< 0: no rate is held
   render::PictureScale scale_;
+  Camera drawn_from_;  ///< the last frame
   int width_ = 0, height_ = 0;
   ShownRadiance refined_;
   int refined_samples_ = 0;

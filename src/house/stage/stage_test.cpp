@@ -54,7 +54,7 @@ std::shared_ptr<scene::Model> fence() {
   iron.base_colour_texture = 0;
   auto model = std::make_shared<scene::Model>(
       *model_of(quad({-6, 3, 0}, {-2, 3, 0}, {-2, 3, 1.2f}, {-6, 3, 1.2f}), iron));
-  model->textures.push_back({"bars", bars, true, false});
+  model->textures.push_back({"bars", bars, true, scene::Wrap::clamp, scene::Wrap::clamp});
   return model;
 }
 
@@ -165,6 +165,9 @@ TEST_F(StageTest, AHeldRateDrawsFewerPixelsUntilNothingMoves) {
   };
   EXPECT_EQ(move(), 1.0) << "no rate is held";
   (*stage)->hold_rate(1e6);
+  EXPECT_LT(move(), 0.5);
+  EXPECT_LT((*stage)->picture().width, width);
+  EXPECT_EQ((*stage)->whole_picture().width, width) << "what is asked for is drawn whole";
   EXPECT_LT(move(), 0.5);
   (*stage)->refine(camera, width, height);
   EXPECT_EQ((*stage)->drawn_share(), 1.0) << "at rest";

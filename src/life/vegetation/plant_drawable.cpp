@@ -50,7 +50,7 @@ struct DrawList {
 };
 
 gl::Texture upload(const scene::Texture& source) {
-  const std::vector<Image8> levels = scene::mip_levels(source, false);
+  const std::vector<Image8> levels = scene::mip_levels(source, 0);
   gl::Texture texture =
       gl::texture_2d(GL_SRGB8_ALPHA8, source.image.width, source.image.height, int(levels.size()));
   for (std::size_t i = 0; i < levels.size(); ++i)

@@ -20,6 +20,7 @@ struct ScenePlant {
   std::shared_ptr<const PlantShape> shape;  ///< shared by all of one recipe
   glm::mat4 world_from_plant{1.0f};
   bool is_visible = true;
+  int series = -1;  ///< number of the node that laid it out with others; -1: none did
 
   /// Adds recipe and place: equal recipes grow equal plants.
   void hash(ContentHash& hash) const {

@@ -58,7 +58,7 @@ class WoodSurface final : public scene::TracedSurface {
       : shape_(std::move(shape)), scale_(scale) {}
 
   scene::TracedPoint point(const scene::TracedHit& hit) const override {
-    static const reference::MipTexture bark(bark_texture(), false);
+    static const reference::MipTexture bark(bark_texture(), 0);
     const glm::vec3 texel(
         bark.sample(shared::bark_repeats * hit.uv,
                     shared::bark_repeats * hit.width_m / (scale_ * city::bark_sheet_m) * bark.size().x));

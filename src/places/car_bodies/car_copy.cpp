@@ -60,8 +60,8 @@ scene::Model copied(const scene::Model& model, const CarSurvey& found) {
     rigid.deformation = nullptr;
     std::vector<scene::Part> pieces = scene::divided(rigid, triangles_of(rigid, i, found.wheels));
     for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
-      const glm::mat4 node_from_car =
-          glm::translate(glm::mat4(1.0f), -copy.nodes[piece].translation);  // node 0 stands at the origin
+      const glm::mat4 node_from_car = glm::translate(
+          glm::mat4(1.0f), -glm::vec3(copy.nodes[piece].translation));  // node 0 stands at the origin
       add_part(copy, std::move(pieces[piece]), node_from_car * body.car_from_part(i), int(piece));
     }
   }

@@ -545,6 +545,40 @@ TEST_F(Kerbside, ACircleKeepsWhatStandsInIt) {
   EXPECT_NE(errors_of("parkedCars(around=\"0 0 0\")\n").find("give both"), std::string::npos);
 }
 
+TEST_F(Kerbside, AHiddenGroupHidesWhatIsLaidOutInItUntilItIsShown) {
+  auto loaded =
+      ScriptTest::load(std::string(streets) +
+                       "group(name=\"trees\", visible=0) {\nstreetTrees(spacing=12)\n"
+                       "parkedCars(share=0.3)\nstreetTrees(spacing=30, kind=\"plane\", height=7, seed=2)\n"
+                       "streetFurniture(kind=\"lamps\", visible=0)\n}\n");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  scene::Scene& scene = loaded->scene;
+  scene::LiveScene live(std::move(loaded->script));
+  const auto shown = [&](const char* name) {
+    const std::vector<scene::Object> objects = called(scene, name);
+    EXPECT_GT(objects.size(), 4u) << name;
+    return std::ranges::count_if(objects, &scene::Object::is_visible);
+  };
+  const auto plants = [&] {
+    EXPECT_GT(vegetation::scene_plants(scene).size(), 4u);
+    return std::ranges::count_if(vegetation::scene_plants(scene), &vegetation::ScenePlant::is_visible);
+  };
+  const auto expect_none = [&] {
+    for (const char* name : {"street tree", "parked car", "street lamp"}) EXPECT_EQ(shown(name), 0) << name;
+    EXPECT_EQ(plants(), 0);
+  };
+  expect_none();
+  live.set(*live.find("trees"), "visible", true);
+  ASSERT_TRUE(live.refresh(scene).empty());
+  EXPECT_EQ(shown("street tree"), std::ptrdiff_t(called(scene, "street tree").size()));
+  EXPECT_EQ(shown("parked car"), std::ptrdiff_t(called(scene, "parked car").size()));
+  EXPECT_EQ(shown("street lamp"), 0) << "hidden itself";
+  EXPECT_EQ(plants(), std::ptrdiff_t(vegetation::scene_plants(scene).size()));
+  live.set(*live.find("trees"), "visible", false);
+  ASSERT_TRUE(live.refresh(scene).empty());
+  expect_none();
+}
+
 TEST_F(Kerbside, RepeatsWhatTheScriptNames) {
   folder_.write("post.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
   const std::string post = "model(name=\"post\", file=\"post.obj\", scale=2, visible=0)\n";

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 
 #include "base/bounds.h"
 #include "base/content_hash.h"
@@ -18,6 +19,7 @@
 #include "scene/data/object_names.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
+#include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::kerbside {
@@ -40,7 +42,8 @@ struct PlannedSeries {
   /// Grown plants in place of models; a null kind: none.
   vegetation::PlantRecipe plant = {};
   bool turns_at_random = false;  ///< as trees do
-  bool is_car = false;           ///< takes reflections and is dynamic: reference maps leave it out
+  bool is_visible = true;
+  bool is_car = false;  ///< takes reflections and is dynamic: reference maps leave it out
 
   /// What follows from the script is in the objects.
   void hash(ContentHash& hash) const { hash.add_text(object_name); }
@@ -65,9 +68,10 @@ scene::AttributeSchema spacing_attribute(const std::string& help, double min_m) 
   return number("spacing", help).in("m").between(min_m, 500);
 }
 
-/// The circle in which a series stands, where a script gives one.
+/// The circle in which a series stands, where a script gives one, and whether it is to be seen.
 std::vector<scene::AttributeSchema> circle_attributes() {
-  return {vec3("around", "with `within`: the middle of the circle in plan where they stand; else everywhere"),
+  return {scene::visible_attribute(),
+          vec3("around", "with `within`: the middle of the circle in plan where they stand; else everywhere"),
           number("within", "of `around`, in plan").in("m").between(5, 1e5)};
 }
 
@@ -75,6 +79,11 @@ std::vector<scene::AttributeSchema> circle_attributes() {
 scene::NodeSchema with_circle(scene::NodeSchema schema) {
   std::ranges::move(circle_attributes(), std::back_inserter(schema.attributes));
   return schema;
+}
+
+/// Whether the node and all groups around it are to be seen.
+bool is_visible(const scene::Node& node, const scene::SceneBuilder& builder) {
+  return builder.is_visible() && node.flag("visible");
 }
 
 /// Reads those. False, and an error of the builder, where one is without the other.
@@ -115,6 +124,7 @@ void build_street_trees(const scene::Node& node, scene::SceneBuilder& builder) {
   const float height_m = float(node.number("height"));
   const auto seed = std::uint64_t(node.integer("seed"));
   PlannedSeries planned;
+  planned.is_visible = is_visible(node, builder);
   planned.series = {.spacing_m = float(node.number("spacing")),
                     .beside_m = float(node.number("beside")),
                     .radius_m = float(node.number("clear"))};
@@ -142,6 +152,7 @@ scene::NodeSchema parked_cars_schema() {
 
 void build_parked_cars(const scene::Node& node, scene::SceneBuilder& builder) {
   PlannedSeries planned;
+  planned.is_visible = is_visible(node, builder);
   planned.series = {.spacing_m = float(node.number("spacing")),
                     .beside_m = 1.0f,
                     .half_length_m = 1.5f,
@@ -178,6 +189,7 @@ scene::NodeSchema street_furniture_schema() {
 void build_street_furniture(const scene::Node& node, scene::SceneBuilder& builder) {
   const FurnitureKind& kind = *std::ranges::find(furniture_kinds(), node.text("kind"), &FurnitureKind::name);
   PlannedSeries planned;
+  planned.is_visible = is_visible(node, builder);
   planned.series = {.spacing_m = node.gives("spacing") ? float(node.number("spacing")) : kind.spacing_m,
                     .beside_m = kind.beside_m,
                     .half_length_m = kind.half_length_m,
@@ -212,7 +224,7 @@ std::vector<Repeated> what_is_repeated(const PlannedSeries& planned, std::size_t
 }
 
 /// A grown plant at each place, of a few shapes.
-void plant_series(const PlannedSeries& planned, FreeGround& ground, scene::SceneBuilder& builder) {
+void plant_series(const PlannedSeries& planned, int maker, FreeGround& ground, scene::SceneBuilder& builder) {
   constexpr int shapes = 3;
   Random random(planned.series.seed, 300);
   std::vector<vegetation::ScenePlant> plants;
@@ -225,13 +237,15 @@ void plant_series(const PlannedSeries& planned, FreeGround& ground, scene::Scene
     if (before + plants.size() >= max_objects)
       return builder.fail(
           error_at(planned.where_of, "more than {} plants: give a wider spacing", max_objects));
-    plants.push_back({*std::move(shape), glm::rotate(glm::translate(glm::mat4(1.0f), place.foot),
-                                                     random.uniform(0.0f, 6.2831853f), {0.0f, 0.0f, 1.0f})});
+    plants.push_back({*std::move(shape),
+                      glm::rotate(glm::translate(glm::mat4(1.0f), place.foot),
+                                  random.uniform(0.0f, 6.2831853f), {0.0f, 0.0f, 1.0f}),
+                      planned.is_visible, maker});
   }
   builder.add_all(std::move(plants));
 }
 
-void set_up(const PlannedSeries& planned, FreeGround& ground, scene::SceneBuilder& builder) {
+void set_up(const PlannedSeries& planned, int maker, FreeGround& ground, scene::SceneBuilder& builder) {
   const std::vector<KerbPlace> places = take_kerb_places(builder.scene.roads, planned.series, ground);
   const std::vector<Repeated> repeated = what_is_repeated(planned, places.size(), builder);
   if (repeated.empty()) return;
@@ -242,7 +256,7 @@ void set_up(const PlannedSeries& planned, FreeGround& ground, scene::SceneBuilde
                                  "Give a wider spacing",
                                  places.size(), planned.object_name, builder.scene.objects.size(),
                                  max_objects));
-  std::size_t number = 0;
+  std::vector<scene::Object> objects;
   for (const KerbPlace& place : places) {
     const Repeated& chosen = repeated[std::size_t(random.index(int(repeated.size())))];
     const float turn = random.uniform(0.0f, 6.2831853f);
@@ -250,14 +264,16 @@ void set_up(const PlannedSeries& planned, FreeGround& ground, scene::SceneBuilde
     const glm::vec2 x = planned.is_car || place.is_left ? place.along : -place.along;
     const float angle = planned.turns_at_random ? turn : std::atan2(x.y, x.x);
     scene::Object object;
-    object.name = fmt::format("{} {}", planned.object_name, ++number);
+    object.name = fmt::format("{} {}", planned.object_name, objects.size() + 1);
     object.model = chosen.look.model, object.paint = chosen.look.paint;
     glm::mat4 stands = glm::rotate(glm::translate(glm::mat4(1.0f), place.foot), angle, {0.0f, 0.0f, 1.0f});
     if (planned.is_car) stands = glm::rotate(stands, -std::atan(place.rise), {0.0f, 1.0f, 0.0f});
     object.world_from_model = stands * glm::mat4(chosen.turn);
     object.is_dynamic = object.takes_reflection = planned.is_car;
-    builder.add(std::move(object));
+    object.is_visible = planned.is_visible;
+    objects.push_back(std::move(object));
   }
+  builder.add_for(maker, std::move(objects));
 }
 
 /// What the circles of all series cover; everything where one has none.
@@ -275,7 +291,8 @@ Bounds area_of(const std::vector<PlannedSeries>& all) {
 
 /// Series in the order of the script: what comes first takes its places first.
 void finish(scene::SceneBuilder& builder) {
-  const std::vector<PlannedSeries> all = builder.scene.items<PlannedSeries>();
+  const scene::ItemsOf<PlannedSeries> planned_series = builder.scene.data<scene::ItemsOf<PlannedSeries>>();
+  const std::vector<PlannedSeries>& all = planned_series.items;
   if (all.empty() || !builder.errors().empty()) return;
   if (builder.scene.roads.empty())
     return builder.warn(error_at(all.front().where_of,
@@ -288,8 +305,20 @@ void finish(scene::SceneBuilder& builder) {
       !enough)
     return builder.fail(enough.errors(), all.front().where_of);
   FreeGround ground(builder.scene, area);
-  for (const PlannedSeries& planned : all)
-    planned.plant.kind ? plant_series(planned, ground, builder) : set_up(planned, ground, builder);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i].plant.kind ? plant_series(all[i], planned_series.makers[i], ground, builder)
+                      : set_up(all[i], planned_series.makers[i], ground, builder);
+}
+
+/// Plants of a series whose node has been rebuilt are shown or hidden; models are with their node.
+void show_or_hide(scene::SceneBuilder& builder) {
+  const auto& planned = builder.scene.data<scene::ItemsOf<PlannedSeries>>();
+  std::map<int, bool> is_visible;
+  for (std::size_t i = 0; i < planned.items.size(); ++i)
+    is_visible[planned.makers[i]] = planned.items[i].is_visible;
+  for (vegetation::ScenePlant& plant : builder.scene.data<vegetation::ScenePlants>().items)
+    if (const auto series = is_visible.find(plant.series); series != is_visible.end())
+      plant.is_visible = series->second;
 }
 
 }  // namespace
@@ -303,6 +332,7 @@ void furnish(House& house) {
   registry.add_finish_step(plant_map_trees);  // first: what grows there takes its place
   registry.add_rebuild_step(plant_rebuilt_map_trees);
   registry.add_finish_step(finish);
+  registry.add_rebuild_step(show_or_hide);
 }
 
 }  // namespace parvis::kerbside

@@ -84,7 +84,7 @@ std::vector<scene::Material> all_materials() {
 int add_texture(scene::Model& model, std::string name, Image8 image, bool is_srgb, bool repeats = true) {
   scene::Texture texture;
   texture.name = std::move(name), texture.image = std::move(image);
-  texture.is_srgb = is_srgb, texture.repeats = repeats;
+  texture.is_srgb = is_srgb, texture.set_repeats(repeats);
   model.textures.push_back(std::move(texture));
   return int(model.textures.size()) - 1;
 }

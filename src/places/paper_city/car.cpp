@@ -29,7 +29,7 @@ scene::Material coated(scene::Material m) {
 
 scene::Texture texture(const char* name, const Image8& image) {
   scene::Texture result;
-  result.name = name, result.image = image, result.repeats = false;
+  result.name = name, result.image = image, result.set_repeats(false);
   return result;
 }
 

@@ -50,7 +50,7 @@ Species small_species(float height_m) {
 scene::Texture texture(std::string name, Image8 image, bool is_srgb, bool repeats) {
   scene::Texture result;
   result.name = std::move(name), result.image = std::move(image), result.is_srgb = is_srgb,
-  result.repeats = repeats;
+  result.set_repeats(repeats);
   return result;
 }
 

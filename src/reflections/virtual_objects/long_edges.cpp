@@ -60,6 +60,9 @@ class Halving {
       known->second = std::uint32_t(made.positions.size());
       made.positions.push_back(0.5f * (made.positions[a] + made.positions[b]));
       made.uvs.push_back(0.5f * (made.uvs[a] + made.uvs[b]));
+      if (!made.second_uvs.empty())
+        made.second_uvs.push_back(0.5f * (made.second_uvs[a] + made.second_uvs[b]));
+      if (!made.colours.empty()) made.colours.push_back(0.5f * (made.colours[a] + made.colours[b]));
       const glm::vec3 normal = made.normals[a] + made.normals[b];
       const float size = glm::length(normal);
       made.normals.push_back(size > 0.0f ? normal / size : made.normals[a]);

@@ -70,7 +70,7 @@ TEST(LeafOpenness, HolesOfThePictureLetThrough) {
   auto model = std::make_shared<Model>(*model_of(mesh, leaf));
   Image8 tenth(10, 10, 4, 0);
   for (int x = 0; x < 10; ++x) tenth.at(x, 0)[3] = 255;
-  model->textures.push_back({"tenth", tenth, true, false});
+  model->textures.push_back({"tenth", tenth, true, scene::Wrap::clamp, scene::Wrap::clamp});
   add(scene, model);
   find_leaf_openness(scene);
   const auto everywhere = [](glm::vec3) { return true; };

@@ -9,8 +9,6 @@
 namespace parvis::scene {
 namespace {
 
-constexpr int visible = 128;  // alpha from which on a texel is there
-
 std::uint8_t byte(float value) { return std::uint8_t(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f))); }
 
 Image8 halved(const Image8& fine, bool is_srgb) {
@@ -43,16 +41,16 @@ Histogram alphas(const Image8& image) {
   return counts;
 }
 
-std::size_t visible_texels(const Image8& image) {
+std::size_t visible_texels(const Image8& image, int visible) {
   const Histogram counts = alphas(image);
   std::size_t sum = 0;
-  for (std::size_t a = visible; a < counts.size(); ++a) sum += counts[a];
+  for (std::size_t a = std::size_t(visible); a < counts.size(); ++a) sum += counts[a];
   return sum;
 }
 
 /// Scales alpha so that about `coverage` of the texels are visible, as nearly as its steps allow, and at
 /// least one.
-void keep_coverage(Image8& image, double coverage) {
+void keep_coverage(Image8& image, double coverage, int visible) {
   const Histogram counts = alphas(image);
   const double wanted = coverage * texels(image);
   double sum = 0.0;  // of the texels at the threshold and above
@@ -82,22 +80,25 @@ const ByteTable& values_of_bytes(bool is_srgb) {
   return tables[is_srgb ? 1 : 0];
 }
 
-std::vector<char> cutout_textures(const Model& model) {
-  std::vector<char> is_cutout(model.textures.size(), 0);
-  for (const Material& material : model.materials)
-    if (material.alpha_mode == Alpha::cutout && material.base_colour_texture != no_index)
-      is_cutout[std::size_t(material.base_colour_texture)] = 1;
-  return is_cutout;
+std::vector<int> visible_alphas(const Model& model) {
+  std::vector<int> visible(model.textures.size(), 0);
+  for (const Material& m : model.materials) {
+    if (m.alpha_mode != Alpha::cutout || m.base_colour_texture == no_index) continue;
+    const float cutoff = m.alpha > 0.0f ? m.alpha_cutoff / m.alpha : 1.0f;
+    visible[std::size_t(m.base_colour_texture)] =
+        std::clamp(int(std::ceil(255.0f * std::min(cutoff, 1.0f) - 1e-3f)), 1, 255);
+  }
+  return visible;
 }
 
-std::vector<Image8> mip_levels(const Texture& texture, bool is_cutout) {
+std::vector<Image8> mip_levels(const Texture& texture, int visible_alpha) {
   std::vector<Image8> levels{texture.image};
   while (levels.back().width > 1 || levels.back().height > 1)
     levels.push_back(halved(levels.back(), texture.is_srgb));
-  if (!is_cutout) return levels;
-  const double coverage = double(visible_texels(levels[0])) / texels(levels[0]);
+  if (visible_alpha == 0) return levels;
+  const double coverage = double(visible_texels(levels[0], visible_alpha)) / texels(levels[0]);
   if (coverage <= 0.0 || coverage >= 1.0) return levels;
-  for (std::size_t i = 1; i < levels.size(); ++i) keep_coverage(levels[i], coverage);
+  for (std::size_t i = 1; i < levels.size(); ++i) keep_coverage(levels[i], coverage, visible_alpha);
   return levels;
 }
 

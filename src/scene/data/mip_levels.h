@@ -13,12 +13,13 @@ using ByteTable = std::array<float, 256>;
 /// The table of sRGB-encoded or of linear bytes.
 const ByteTable& values_of_bytes(bool is_srgb);
 
-/// For each texture of a model: true if it is the colour of a cutout material.
-std::vector<char> cutout_textures(const Model& model);
+/// For each texture of a model: if it is the colour of a cutout material, the alpha (1 to 255) from which on
+/// its texels are visible; else 0.
+std::vector<int> visible_alphas(const Model& model);
 
 /// All mipmap levels of a texture, box-filtered over 2 x 2 texels in linear light. For cutout textures, alpha
-/// of each level is scaled so that the fraction of texels at 0.5 and above is that of level 0 (Castano 2010,
-/// Computing Alpha Mipmaps): distant leaves neither thin out nor swell.
-std::vector<Image8> mip_levels(const Texture& texture, bool is_cutout);
+/// of each level is scaled so that the fraction of texels at `visible_alpha` and above is that of level 0
+/// (Castano 2010, Computing Alpha Mipmaps): distant leaves neither thin out nor swell.
+std::vector<Image8> mip_levels(const Texture& texture, int visible_alpha);
 
 }  // namespace parvis::scene

@@ -11,7 +11,7 @@ namespace {
 
 /// Thin leaves here and there: ellipses of random places and headings.
 Texture leaves(float wanted_coverage) {
-  Texture texture{"leaves", Image8(256, 256, 4, 0), true, true};
+  Texture texture{"leaves", Image8(256, 256, 4, 0)};
   Random random(3);
   double covered = 0.0;
   while (covered < wanted_coverage) {
@@ -39,28 +39,28 @@ double coverage(const Image8& image) {
 TEST(MipLevels, CutOutsKeepTheirCoverage) {
   for (const float share : {0.15f, 0.4f, 0.8f}) {
     const Texture texture = leaves(share);
-    const std::vector<Image8> levels = mip_levels(texture, true);
+    const std::vector<Image8> levels = mip_levels(texture, 128);
     ASSERT_EQ(levels.size(), 9u);
     // A mask's means take five values on the first level: steps of up to a tenth. A few texels show no share
     // at all.
     for (std::size_t i = 1; levels[i].width >= 8; ++i)
       EXPECT_NEAR(coverage(levels[i]), coverage(levels[0]), 0.05) << share << ", level " << i;
-    EXPECT_LT(coverage(mip_levels(leaves(0.15f), false)[4]), 0.03);  // they would vanish
+    EXPECT_LT(coverage(mip_levels(leaves(0.15f), 0)[4]), 0.03);  // they would vanish
   }
 }
 
 TEST(MipLevels, AverageInLinearLight) {
-  Texture texture{"black and white", Image8(2, 1, 4, 255), true, true};
+  Texture texture{"black and white", Image8(2, 1, 4, 255)};
   for (int c = 0; c < 3; ++c) texture.image.at(0, 0)[c] = 0;
-  EXPECT_EQ(mip_levels(texture, false)[1].at(0, 0)[0], 188);  // sRGB of a half
+  EXPECT_EQ(mip_levels(texture, 0)[1].at(0, 0)[0], 188);  // sRGB of a half
   texture.is_srgb = false;
-  EXPECT_EQ(mip_levels(texture, false)[1].at(0, 0)[0], 128);
+  EXPECT_EQ(mip_levels(texture, 0)[1].at(0, 0)[0], 128);
 }
 
 TEST(MipLevels, OddSizesAndPlainAlphaStandAsTheyAre) {
-  Texture texture{"grey", Image8(5, 3, 4, 77), false, true};
-  for (const bool is_cutout : {false, true})
-    for (const Image8& level : mip_levels(texture, is_cutout))
+  Texture texture{"grey", Image8(5, 3, 4, 77), false};
+  for (const int visible : {0, 60, 128})
+    for (const Image8& level : mip_levels(texture, visible))
       for (const std::uint8_t value : level.pixels) EXPECT_EQ(value, 77);
 }
 
@@ -71,7 +71,9 @@ TEST(MipLevels, TexturesOfCutOutMaterialsAreKnown) {
   model.materials[0].base_colour_texture = 0;
   model.materials[1].base_colour_texture = 2;
   model.materials[1].alpha_mode = Alpha::cutout;
-  EXPECT_EQ(cutout_textures(model), (std::vector<char>{0, 0, 1}));
+  EXPECT_EQ(visible_alphas(model), (std::vector<int>{0, 0, 128}));
+  model.materials[1].alpha_cutoff = 0.2f;
+  EXPECT_EQ(visible_alphas(model), (std::vector<int>{0, 0, 51}));
 }
 
 }  // namespace

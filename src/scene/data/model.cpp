@@ -1,26 +1,37 @@
 #include "scene/data/model.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace parvis::scene {
 namespace {
 
-glm::mat4 local_transform(const ModelNode& node) {
-  return glm::translate(glm::mat4(1.0f), node.translation) * glm::mat4_cast(node.rotation) *
-         glm::scale(glm::mat4(1.0f), node.scale);
+glm::dmat4 local_transform(const ModelNode& node) {
+  return glm::translate(glm::dmat4(1.0), node.translation) * glm::mat4_cast(node.rotation) *
+         glm::scale(glm::dmat4(1.0), node.scale);
 }
 
-std::vector<glm::mat4> model_from_nodes(const std::vector<ModelNode>& nodes) {
-  std::vector<glm::mat4> pose;
+std::vector<glm::dmat4> model_from_nodes(const std::vector<ModelNode>& nodes) {
+  std::vector<glm::dmat4> pose;
   pose.reserve(nodes.size());
   for (const ModelNode& node : nodes) {
-    const glm::mat4 local = local_transform(node);
+    const glm::dmat4 local = local_transform(node);
     pose.push_back(node.parent == no_index ? local : pose[std::size_t(node.parent)] * local);
   }
   return pose;
 }
 
+std::vector<glm::mat4> rounded(const std::vector<glm::dmat4>& pose) { return {pose.begin(), pose.end()}; }
+
 }  // namespace
+
+float wrapped(float coordinate, Wrap wrap) {
+  if (wrap == Wrap::clamp) return std::clamp(coordinate, 0.0f, 1.0f);
+  if (wrap == Wrap::repeat) return coordinate - std::floor(coordinate);
+  const float in_two = coordinate - 2.0f * std::floor(0.5f * coordinate);
+  return in_two > 1.0f ? 2.0f - in_two : in_two;
+}
 
 std::size_t Model::triangle_count() const {
   std::size_t count = 0;
@@ -28,7 +39,9 @@ std::size_t Model::triangle_count() const {
   return count;
 }
 
-std::vector<glm::mat4> rest_pose(const Model& model) { return model_from_nodes(model.nodes); }
+std::vector<glm::dmat4> exact_rest_pose(const Model& model) { return model_from_nodes(model.nodes); }
+
+std::vector<glm::mat4> rest_pose(const Model& model) { return rounded(exact_rest_pose(model)); }
 
 std::vector<glm::mat4> pose_at(const Model& model, const Animation& animation, float time_s) {
   using Property = AnimationChannel::Property;
@@ -38,17 +51,17 @@ std::vector<glm::mat4> pose_at(const Model& model, const Animation& animation, f
     const glm::vec4 value = sample(channel, time_s);
     switch (channel.property) {
       case Property::translation:
-        node.translation = glm::vec3(value);
+        node.translation = glm::dvec3(value);
         break;
       case Property::rotation:
-        node.rotation = glm::normalize(glm::quat(value.w, value.x, value.y, value.z));
+        node.rotation = glm::normalize(glm::dquat(value.w, value.x, value.y, value.z));
         break;
       case Property::scale:
-        node.scale = glm::vec3(value);
+        node.scale = glm::dvec3(value);
         break;
     }
   }
-  return model_from_nodes(nodes);
+  return rounded(model_from_nodes(nodes));
 }
 
 Bounds bounds(const Model& model) {

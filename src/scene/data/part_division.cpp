@@ -17,9 +17,7 @@ Mesh extracted(const Mesh& mesh, const std::vector<std::uint32_t>& triangles,
       const std::uint32_t old = mesh.indices[3 * triangle + k];
       if (new_index[old] == unused) {
         new_index[old] = std::uint32_t(result.positions.size());
-        result.positions.push_back(mesh.positions[old]);
-        result.normals.push_back(mesh.normals[old]);
-        result.uvs.push_back(mesh.uvs[old]);
+        append_vertex(result, mesh, old);
       }
       result.indices.push_back(new_index[old]);
     }
@@ -30,7 +28,7 @@ Mesh extracted(const Mesh& mesh, const std::vector<std::uint32_t>& triangles,
 
 /// Of a mesh that deforms all vertices stay: its deformation counts them.
 Mesh with_all_vertices(const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
-  Mesh result{mesh.positions, mesh.normals, mesh.uvs, {}};
+  Mesh result{mesh.positions, mesh.normals, mesh.uvs, {}, mesh.second_uvs, mesh.colours};
   for (const std::uint32_t triangle : triangles)
     for (std::size_t k = 0; k < 3; ++k) result.indices.push_back(mesh.indices[3 * triangle + k]);
   return result;

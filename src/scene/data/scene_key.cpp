@@ -9,12 +9,18 @@ namespace {
 
 void add_material(ContentHash& hash, const Material& m) {
   for (const glm::vec3 colour : {m.base_colour, m.emission, m.absorption_per_m}) hash.add(colour);
-  for (const float value : {m.alpha, m.metallic, m.roughness, m.clear_coat, m.clear_coat_roughness,
-                            m.translucency, m.normal_scale, m.relief_m, m.ior})
+  for (const float value :
+       {m.alpha, m.metallic, m.roughness, m.clear_coat, m.clear_coat_roughness, m.translucency,
+        m.normal_scale, m.relief_m, m.ior, m.alpha_cutoff, m.occlusion_strength})
     hash.add(value);
-  for (const int texture : {m.base_colour_texture, m.normal_texture, m.surface_texture, m.emission_texture})
+  for (const int texture :
+       {m.base_colour_texture, m.normal_texture, m.surface_texture, m.emission_texture, m.occlusion_texture})
     hash.add(texture);
   hash.add(m.texture_from_mesh_uv);
+  if (m.own_mappings)
+    for (const TextureMapping& mapping : {m.own_mappings->normal, m.own_mappings->surface,
+                                          m.own_mappings->emission, m.own_mappings->occlusion})
+      hash.add(mapping.texture_from_uv), hash.add(mapping.takes_second_uvs);
   hash.add(m.alpha_mode);
   for (const bool choice : {m.is_double_sided, m.is_mirror_like}) hash.add(choice);
 }
@@ -24,7 +30,7 @@ std::uint64_t model_key(const Model& model) {
   for (const Texture& texture : model.textures) {
     hash.add(texture.image.width);
     hash.add(texture.image.pixels);
-    for (const bool choice : {texture.is_srgb, texture.repeats}) hash.add(choice);
+    hash.add(texture.is_srgb), hash.add(texture.wrap_u), hash.add(texture.wrap_v);
   }
   for (const Material& material : model.materials) add_material(hash, material);
   for (const glm::mat4& pose : rest_pose(model)) hash.add(pose);
@@ -32,6 +38,8 @@ std::uint64_t model_key(const Model& model) {
     hash.add(part.mesh.positions);
     hash.add(part.mesh.normals);
     hash.add(part.mesh.uvs);
+    hash.add(part.mesh.second_uvs);
+    hash.add(part.mesh.colours);
     hash.add(part.mesh.indices);
     const int role = int(part.casts_shadow) + 2 * int(part.is_backdrop);
     for (const int index : {part.material, part.node, role}) hash.add(index);

@@ -28,7 +28,7 @@ class Shaping {
  public:
   Shaping(const Mesh& mesh, const glm::mat4& world_from_mesh, const Earthworks& works)
       : works_(works), world_from_mesh_(world_from_mesh), mesh_from_world_(glm::inverse(world_from_mesh)) {
-    result_.positions = mesh.positions, result_.uvs = mesh.uvs, result_.normals = mesh.normals;
+    result_ = mesh, result_.indices.clear();
     if (result_.normals.size() != mesh.positions.size()) {
       result_.indices = mesh.indices;
       fill_normals(result_);
@@ -50,6 +50,13 @@ class Shaping {
   using Triangle = std::array<std::uint32_t, 3>;
   static constexpr std::uint32_t none = ~0u;
 
+  template <class T>
+  static T mean_of(const std::vector<T>& values, std::span<const std::uint32_t> corners) {
+    T sum(0.0f);
+    for (const std::uint32_t corner : corners) sum += values[corner];
+    return sum / float(corners.size());
+  }
+
   std::uint32_t add_bare(glm::vec3 point) {
     bare_.push_back(point);
     shaped_m_.push_back(works_.at(glm::vec2(point), point.z));
@@ -70,6 +77,8 @@ class Shaping {
     result_.normals.push_back(glm::length(normal) > 0.0f ? glm::normalize(normal)
                                                          : result_.normals[corners.front()]);
     if (!result_.uvs.empty()) result_.uvs.push_back(uv);
+    if (!result_.second_uvs.empty()) result_.second_uvs.push_back(mean_of(result_.second_uvs, corners));
+    if (!result_.colours.empty()) result_.colours.push_back(mean_of(result_.colours, corners));
     return add_bare(point);
   }
 

@@ -332,10 +332,15 @@ Errors LiveScene::build_again(Scene& scene, const Node& node) {
 void LiveScene::put_objects(Scene& scene, std::vector<Object> built, const std::vector<const Node*>& makers,
                             const Node& node) {
   std::set<int> free;
-  for (const int index : objects_of(node)) {
-    free.insert(index);
-    scene.objects[std::size_t(index)].is_visible = false;
-  }
+  for_each_from(node, [&](const Node& each) {
+    // What is laid out once is not rebuilt: it is shown or hidden where it stands.
+    const bool stays = each.schema->is_laid_out_once && each.schema->find("visible") != nullptr;
+    const bool is_visible = stays && frame_of(each).is_visible && each.flag("visible");
+    for (const int index : objects_[&each]) {
+      if (!stays) free.insert(index);
+      scene.objects[std::size_t(index)].is_visible = is_visible;
+    }
+  });
   for (std::size_t i = 0; i < built.size(); ++i) {
     std::vector<int>& places = objects_[makers[i]];
     const auto place = std::find_if(places.begin(), places.end(), [&](int index) {

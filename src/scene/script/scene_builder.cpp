@@ -36,6 +36,14 @@ void SceneBuilder::add(Object object) {
   object_makers_.resize(scene.objects.size(), node_);
 }
 
+void SceneBuilder::add_for(int maker, std::vector<Object> objects) {
+  const auto of =
+      std::ranges::find_if(frames_, [&](const auto& each) { return each.second.number == maker; });
+  const Node* outer = std::exchange(node_, of == frames_.end() ? nullptr : of->first);
+  for (Object& object : objects) add(std::move(object));
+  node_ = outer;
+}
+
 void SceneBuilder::add(NamedCamera camera) {
   if (!parvis::is_usable(camera.camera)) return fail(misplaced(camera.name, node_));
   scene.cameras.push_back(std::move(camera));

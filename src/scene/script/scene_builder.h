@@ -77,6 +77,10 @@ class SceneBuilder {
     add_made_by(maker_number(object), std::move(items));
   }
 
+  /// Adds objects that a finish step makes for the node of this number, which is laid out once: they are
+  /// shown and hidden with it.
+  void add_for(int maker, std::vector<Object> objects);
+
   /// Builds nodes inside the current frame; hidden ones are built, too.
   void build(const std::vector<Node>& nodes, const glm::mat4& parent_from_nodes = glm::mat4(1.0f),
              bool is_visible = true);

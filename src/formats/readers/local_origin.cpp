@@ -1,0 +1,30 @@
+#include "formats/readers/local_origin.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parvis::formats {
+namespace {
+
+/// Of the range from the number in it that is nearest to zero.
+double distance_from_zero(double low, double high) { return std::max({low, -high, 0.0}); }
+
+}  // namespace
+
+glm::dvec3 local_origin(glm::dvec3 low, glm::dvec3 high) {
+  if (!(low.x <= high.x)) return glm::dvec3(0.0);
+  const glm::dvec3 middle = glm::round(0.5 * (low + high));
+  glm::dvec3 origin(0.0);
+  const double x = distance_from_zero(low.x, high.x), y = distance_from_zero(low.y, high.y);
+  if (std::hypot(x, y) > max_local_m) origin.x = middle.x, origin.y = middle.y;
+  if (distance_from_zero(low.z, high.z) > max_local_m) origin.z = middle.z;
+  return origin;
+}
+
+void note_origin(glm::dvec3 origin, scene::FileAccount& account) {
+  if (origin == glm::dvec3(0.0)) return;
+  account.changed("coordinates", fmt::format("given about the local origin {:.0f} {:.0f} {:.0f}", origin.x,
+                                             origin.y, origin.z));
+}
+
+}  // namespace parvis::formats

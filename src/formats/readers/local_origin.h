@@ -1,0 +1,21 @@
+// The origin about which a model's coordinates are kept: those of a national grid have seven digits before
+// the point, and single precision has seven in all.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "scene/data/file_account.h"
+
+namespace parvis::formats {
+
+/// From this distance on single precision ends at millimetres.
+inline constexpr double max_local_m = 10'000.0;
+
+/// Whole metres that are to be taken off coordinates (z up) within `low` and `high`: the middle of a plan
+/// that is nowhere within `max_local_m` of zero, the middle of such heights; else zero.
+glm::dvec3 local_origin(glm::dvec3 low, glm::dvec3 high);
+
+/// Notes a local origin other than zero in the account.
+void note_origin(glm::dvec3 origin, scene::FileAccount& account);
+
+}  // namespace parvis::formats

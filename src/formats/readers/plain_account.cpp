@@ -1,0 +1,24 @@
+#include "formats/readers/plain_account.h"
+
+#include <set>
+
+namespace parvis::formats {
+
+void count_what_is_shown(const scene::Model& model, scene::FileAccount& account) {
+  std::set<std::string_view> objects;
+  for (const scene::Part& part : model.parts) objects.insert(part.object);
+  account.used("objects", objects.size());
+  account.used("triangles", model.triangle_count());
+  account.used("images", model.textures.size());
+  account.used("animations", model.animations.size());
+  account.used("roads", model.roads.size());
+}
+
+Result<FileContent> with_plain_account(std::string format, Result<scene::Model> model) {
+  if (!model) return model.errors();
+  scene::FileAccount account(std::move(format));
+  count_what_is_shown(*model, account);
+  return FileContent{*std::move(model), std::move(account)};
+}
+
+}  // namespace parvis::formats
