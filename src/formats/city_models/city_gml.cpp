@@ -27,6 +27,7 @@
 #include "formats/city_models/city_lod.h"
 #include "formats/city_models/city_solid.h"
 #include "formats/city_models/georeferenced_textures.h"
+#include "formats/city_models/gml_geometry.h"
 #include "formats/city_models/xml_guard.h"
 #include "formats/terrain/city_surfaces.h"
 #include "formats/terrain/map_system.h"
@@ -470,6 +471,7 @@ Result<Gml2> read_gml_2(const std::filesystem::path& file, Errors& warnings) {
   if (xml->root.find("CityModel") == std::string::npos)
     return error_at(where, "this is no CityGML: its outermost element is <{}>; expected <CityModel>",
                     xml->root.substr(0, xml->root.find(' ')));
+  xml->bytes = plain_gml_geometry(std::move(xml->bytes));
   Gml2 read{{}, system_of(xml->bytes, where, warnings), georeferenced_textures(xml->bytes)};
   if (is_city_gml_3(xml->root)) {
     Result<std::string> text = city_gml_2_of(xml->bytes, where);
