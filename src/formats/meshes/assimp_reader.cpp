@@ -21,6 +21,7 @@
 #include "base/image_io.h"
 #include "base/isolated_process.h"
 #include "formats/meshes/far_vertices.h"
+#include "formats/meshes/text_account.h"
 #include "formats/readers/local_origin.h"
 #include "formats/readers/plain_account.h"
 #include "scene/data/placeholder.h"
@@ -342,6 +343,7 @@ FarFile brought_near(const fs::path& file, const std::string& extension, formats
       {}, glm::dvec3(0.0), up == formats::UpAxis::y || (up == formats::UpAxis::file && !is_z_up_format)};
   const Result<std::string> bytes = read_file(file);
   if (!bytes) return near;  // assimp says what is wrong
+  count_what_assimp_drops(*bytes, file, extension, account);
   const std::optional<VertexBox> box = far_vertices(*bytes, extension);
   if (!box) return near;
   // No height is that of a northing.

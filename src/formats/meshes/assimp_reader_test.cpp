@@ -122,6 +122,26 @@ TEST(Assimp, WhatIsLeftOutIsNamed) {
   ASSERT_TRUE(content) << to_string(content.errors());
   EXPECT_EQ(content->account.count(Fate::left_out, "textures"), 1u);
   EXPECT_EQ(content->account.count(Fate::left_out, "primitives"), 1u);
+  EXPECT_EQ(content->account.count(Fate::left_out), 2u);
+
+  const Result<formats::FileContent> bare =
+      read_assimp_content(folder.write("inner/q.obj", std::string(quad) + "cstype bspline\ndeg 3\n"),
+                          formats::UpAxis::file, warnings);
+  ASSERT_TRUE(bare) << to_string(bare.errors());
+  EXPECT_EQ(bare->account.count(Fate::left_out, "material libraries"), 1u);
+  EXPECT_EQ(bare->account.count(Fate::left_out, "statements"), 2u);
+
+  const Result<formats::FileContent> scan = read_assimp_content(
+      folder.write(
+          "scan.ply",
+          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+          "property float intensity\nelement face 1\nproperty list uchar int vertex_indices\n"
+          "element edge 2\nproperty int vertex1\nproperty int vertex2\nend_header\n"
+          "0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2\n0 1\n1 2\n"),
+      formats::UpAxis::file, warnings);
+  ASSERT_TRUE(scan) << to_string(scan.errors());
+  EXPECT_EQ(scan->account.count(Fate::left_out, "properties"), 1u);
+  EXPECT_EQ(scan->account.count(Fate::left_out, "elements"), 2u);
 }
 
 TEST(Assimp, ReadsTheRealCar) {
