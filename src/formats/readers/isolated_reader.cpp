@@ -10,6 +10,7 @@
 #include "base/sealed_file.h"
 #include "formats/readers/model_bytes.h"
 #include "formats/readers/packed_file.h"
+#include "formats/readers/texture_limit.h"
 
 namespace parvis::formats {
 namespace {
@@ -125,10 +126,11 @@ Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput
   std::optional<glm::dvec2> place_deg;
   reading.place_deg = &place_deg;
   Errors warnings;
-  const LeftInWorker<const Result<FileContent>> read_content(
+  const LeftInWorker<Result<FileContent>> read_content(
       new Result<FileContent>(read(file, reading, warnings)));
-  const Result<FileContent>& content = *read_content;
+  Result<FileContent>& content = *read_content;
   if (!content) return content.errors();
+  limit_textures(content->model, content->account);
   const scene::Model& model = content->model;
   std::string front = bytes_of_warnings(warnings) + bytes_of_account(content->account);
   append_value(front, place_to_send(place_deg));

@@ -8,6 +8,7 @@
 
 #include "base/test_folder.h"
 #include "formats/readers/model_bytes.h"
+#include "formats/readers/texture_limit.h"
 
 namespace parvis::formats {
 namespace {
@@ -51,7 +52,7 @@ scene::Model full_model() {
                                 {glm::vec4(1), glm::vec4(2)}});
   animation.weights.push_back({1, scene::Interpolation::linear, {0}, {{0.5f}}});
   model.animations.push_back(animation);
-  model.roads.push_back({{{0, 0, 0}, {9, 0, 0}}, 2, true, 3.5f, 8.0f, {"a.osm", 7, 0}, "street"});
+  model.roads.push_back({{{0, 0, 0}, {9, 0, 0}}, 2, 3, true, 3.5f, 8.0f, {"a.osm", 7, 0}, "street"});
   return model;
 }
 
@@ -114,6 +115,20 @@ Result<FileContent> obedient(const std::filesystem::path& file, const ModelReadi
   account.left_out("oars", "they are not drawn", "port");
   account.left_out("oars", "they are not drawn", "starboard");
   return FileContent{std::move(model), std::move(account)};
+}
+
+TEST(TextureLimit, WhatNoDriverHoldsIsShownSmallerAndNamed) {
+  scene::Model model;
+  model.textures.push_back({"wide.png", Image8(max_texture_side * 2, 2, 4, 90)});
+  model.textures.push_back({"small.png", Image8(4, 4, 4, 90)});
+  scene::FileAccount account("X");
+  limit_textures(model, account);
+  EXPECT_EQ(model.textures[0].image.width, max_texture_side);
+  EXPECT_EQ(model.textures[0].image.height, 1);
+  EXPECT_EQ(model.textures[0].image.pixels[5], 90);
+  EXPECT_EQ(model.textures[1].image.width, 4);
+  EXPECT_NE(account.text().find("wide.png"), std::string::npos);
+  EXPECT_EQ(account.count(scene::Fate::left_out), 1u);
 }
 
 TEST(IsolatedReader, WhateverAReaderDoesIsAModelOrAnError) {
