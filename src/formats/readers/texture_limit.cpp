@@ -15,7 +15,8 @@ void limit_textures(scene::Model& model, scene::FileAccount& account) {
     std::vector<Image8> levels = scene::mip_levels(texture, 0);
     account.left_out(
         "full sizes of images",
-        fmt::format("graphics drivers hold {} pixels a side: a smaller one is shown", max_texture_side),
+        fmt::format("graphics drivers hold {} pixels in width and height: a smaller one is shown",
+                    max_texture_side),
         texture.name);
     texture.image = std::move(*std::ranges::find_if(levels, fits));
   }
