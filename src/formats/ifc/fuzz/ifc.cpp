@@ -2,12 +2,14 @@
 #include "base/fuzz_file.h"
 #include "formats/ifc/ifc_reader.h"
 #include "formats/readers/isolated_reader.h"
+#include "formats/readers/plain_account.h"
 
 namespace {
 
-parvis::Result<parvis::scene::Model> read(const std::filesystem::path& file,
-                                          const parvis::formats::ModelReading&, parvis::Errors& warnings) {
-  return parvis::scene::read_ifc(file, warnings);
+parvis::Result<parvis::formats::FileContent> read(const std::filesystem::path& file,
+                                                  const parvis::formats::ModelReading&,
+                                                  parvis::Errors& warnings) {
+  return parvis::formats::with_plain_account("IFC", parvis::scene::read_ifc(file, warnings));
 }
 
 }  // namespace
