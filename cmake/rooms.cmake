@@ -41,19 +41,19 @@ function(parvis_test name label)  # further arguments: the command
 endfunction()
 
 # A fuzzer for each file fuzz/NAME.cpp of the room, ROOM_NAME_fuzz; script/fuzz runs them. In other builds the same
-# program only reads its seeds, fuzz/corpus/NAME/*, and the inputs once found, fuzz/found/NAME-*, as a test.
+# program only reads its seeds, fuzz/corpus/NAME/*, as a test.
 function(parvis_fuzzers room)  # further arguments: libraries
   file(GLOB fuzzers CONFIGURE_DEPENDS fuzz/*.cpp)
   foreach(source ${fuzzers})
     get_filename_component(reader ${source} NAME_WE)
     set(program ${room}_${reader}_fuzz)
-    file(GLOB inputs CONFIGURE_DEPENDS fuzz/corpus/${reader}/* fuzz/found/${reader}-*)
+    file(GLOB inputs CONFIGURE_DEPENDS fuzz/corpus/${reader}/*)
     add_executable(${program} ${source})
     target_link_libraries(${program} PRIVATE parvis_${room} ${ARGN})
     if(PARVIS_SANITIZE)
       target_link_options(${program} PRIVATE -fsanitize=fuzzer)
     else()
-      target_sources(${program} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/read_found_inputs.cpp)
+      target_sources(${program} PRIVATE ${CMAKE_SOURCE_DIR}/cmake/read_seeds.cpp)
       if(inputs)
         parvis_test(${program} unit ${program} ${inputs})
       endif()

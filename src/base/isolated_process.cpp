@@ -18,6 +18,7 @@
 #include <mutex>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 #include "base/descriptor.h"
 #include "base/memory_budget.h"
@@ -137,6 +138,10 @@ std::chrono::steady_clock::time_point end_of_worker;  ///< when its caller ends 
 
 /// Of a thread that measures what isolation costs.
 thread_local int without_isolation = 0;
+
+/// Of a thread that tests what becomes of other work, null elsewhere.
+thread_local IsolatedWork other_work = nullptr;
+thread_local double max_seconds_of_other_work = 0.0;
 
 std::chrono::steady_clock::time_point deadline_after(double seconds) {
   return std::chrono::steady_clock::now() +
@@ -438,6 +443,13 @@ void start_isolation() {
 
 Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, const std::string& subject,
                                    const IsolationLimits& limits) {
+  if (const IsolatedWork other = std::exchange(other_work, nullptr)) {
+    IsolationLimits shorter = limits;
+    shorter.seconds = std::min(limits.seconds, max_seconds_of_other_work);
+    Result<IsolatedBytes> result = run_isolated(other, input, subject, shorter);
+    other_work = other;
+    return result;
+  }
   Attempt attempt;
   if (without_isolation > 0) {
     attempt = run_here(work, input);
@@ -457,5 +469,10 @@ Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, co
 
 WithoutIsolation::WithoutIsolation() { ++without_isolation; }
 WithoutIsolation::~WithoutIsolation() { --without_isolation; }
+
+WithOtherWork::WithOtherWork(IsolatedWork work, double max_seconds) {
+  other_work = work, max_seconds_of_other_work = max_seconds;
+}
+WithOtherWork::~WithOtherWork() { other_work = nullptr; }
 
 }  // namespace parvis

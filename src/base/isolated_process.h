@@ -90,6 +90,17 @@ class WithoutIsolation {
   WithoutIsolation& operator=(const WithoutIsolation&) = delete;
 };
 
+/// While one exists, calls of its thread run `work` in place of theirs, with their input and limits and
+/// `max_seconds`: so a test sees for every caller what becomes of a reader that crashes, hangs or opens
+/// files.
+class WithOtherWork {
+ public:
+  WithOtherWork(IsolatedWork work, double max_seconds);
+  ~WithOtherWork();
+  WithOtherWork(const WithOtherWork&) = delete;
+  WithOtherWork& operator=(const WithOtherWork&) = delete;
+};
+
 /// Whether this process is a worker, which ends without destructors.
 bool is_in_worker();
 

@@ -35,6 +35,8 @@ TEST(PaperCity, IsASceneOfThePapersFigures) {
   EXPECT_NE(scene.find_camera("balcony"), nullptr);
   EXPECT_NEAR(glm::dot(scene.sun.direction_to_sun, to_sun()), 1.0f, 1e-5f);
   scene::expect_valid_gltf(folder);
+  const auto figures = scene::load_scene(folder / "figures.xp", node_registry());
+  EXPECT_TRUE(figures) << to_string(figures.errors());
   fs::remove_all(folder);
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "base/files.h"
@@ -387,6 +388,18 @@ TEST(CityGml, HostileXmlIsRefusedByItsLine) {
   empty.erase(empty.find("<cityObjectMember>"),
               empty.rfind("</CityModel>") - empty.find("<cityObjectMember>"));
   expect_refused(empty, "has polygons", 0);
+}
+
+TEST(CityGml, CornersFarBeyondTheEarthGiveNoInfinitePlaces) {
+  for (const char* far : {"4e38", "1e86", "1e300", "1e400", "nan"}) {
+    std::string text = wall();
+    text.replace(text.find("80004"), 5, far);
+    const Result<Model> model = read(text);
+    if (!model) continue;
+    for (const Part& part : model->parts)
+      for (const glm::vec3& corner : part.mesh.positions)
+        EXPECT_TRUE(std::isfinite(corner.x) && std::isfinite(corner.y) && std::isfinite(corner.z)) << far;
+  }
 }
 
 TEST(CityGml, DamagedBytesNeverCrash) {

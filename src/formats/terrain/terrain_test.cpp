@@ -120,6 +120,33 @@ TEST(Terrain, OtherFilesAndEmptyGridsAreRefused) {
   EXPECT_NE(told(folder.path() / "holes.tif").find("all holes"), std::string::npos);
 }
 
+/// The head of a TIFF whose samples, 32 bits each, lie in one tile.
+std::string tiff_of_one_tile(std::uint32_t side) {
+  const std::vector<std::pair<std::uint16_t, std::uint32_t>> tags{
+      {256, side}, {257, side},           {258, 32}, {259, 1}, {262, 1}, {322, side}, {323, side},
+      {324, 200},  {325, 4 * side * side}};
+  std::string text("II*\0\x08\0\0\0", 8);
+  const auto add = [&](std::uint32_t number, int bytes) {
+    for (int i = 0; i < bytes; ++i) text += char(number >> (8 * i));
+  };
+  add(std::uint32_t(tags.size()), 2);
+  for (const auto& [tag, value] : tags) add(tag, 2), add(4, 2), add(1, 4), add(value, 4);
+  add(0, 4);
+  return text;
+}
+
+TEST(Terrain, SamplesInBlocksThatFillTheMemoryAreRefused) {
+  const TestFolder folder;
+  Errors warnings;
+  const auto said = [&](std::uint32_t side) {
+    return to_string(read_terrain(folder.write("a.tif", tiff_of_one_tile(side)), 1.0, warnings).errors());
+  };
+  EXPECT_NE(said(10'000).find("blocks of 400 MB; expected at most 256 MB"), std::string::npos)
+      << said(10'000);
+  EXPECT_EQ(said(96).find("blocks of"), std::string::npos)
+      << said(96);  // the control: its samples are missing
+}
+
 TEST(Terrain, ReportsItsHeightAtPlacesOnTheMap) {
   const TestFolder folder;
   const double transform[]{600'000.0, 2.0, 0.0, 5'700'000.0, 0.0, -2.0};

@@ -1,6 +1,7 @@
 #include "graphics/gl/program.h"
 
 #include <algorithm>
+#include <cctype>
 #include <glm/gtc/type_ptr.hpp>
 #include <iterator>
 #include <regex>
@@ -41,7 +42,7 @@ struct Assembly {
     for (std::string line; std::getline(lines, line);) {
       ++line_number;
       std::smatch match;
-      if (!std::regex_search(line, match, include)) {
+      if (line.find('#') == std::string::npos || !std::regex_search(line, match, include)) {
         text += line + "\n";
         continue;
       }
@@ -108,17 +109,29 @@ Result<std::string> shader_text(const std::string& path, const Defines& defines,
 }
 
 std::vector<DeclaredUniform> declared_uniforms(std::string_view text) {
+  std::string code;  // without comments and directives
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    code += line.substr(0, std::min(line.find("//"), line.find('#')));
+    code += '\n';
+    at = end + 1;
+  }
   // A declaration names its type, after a precision, and one or several uniforms, to its semicolon. A block
-  // has a brace before it.
-  static const std::regex comment(R"(//[^\n]*|#[^\n]*)");
-  static const std::regex declaration(R"(\buniform\s+(?:(?:low|medium|high)p\s+)?(\w+)\s+([^;{}]+);)");
+  // has a brace before it. Expressions search slowly: they see what begins with the word alone.
+  static const std::regex declaration(R"(uniform\s+(?:(?:low|medium|high)p\s+)?(\w+)\s+([^;{}]+);)");
   static const std::regex name(R"(\s*(\w+)\s*(?:\[[^\]]*\])?\s*(?:,|$))");
-  const std::string code = std::regex_replace(std::string(text), comment, "");  // nor directives
   std::vector<DeclaredUniform> uniforms;
-  for (std::sregex_iterator at(code.begin(), code.end(), declaration), end; at != end; ++at) {
-    const std::string names = (*at)[2];
-    for (std::sregex_iterator each(names.begin(), names.end(), name); each != end; ++each)
-      uniforms.push_back({(*each)[1], (*at)[1]});
+  for (std::size_t at = code.find("uniform"); at != std::string::npos; at = code.find("uniform", at + 1)) {
+    const bool is_word =
+        at == 0 || (!std::isalnum(static_cast<unsigned char>(code[at - 1])) && code[at - 1] != '_');
+    std::smatch match;
+    if (!is_word || !std::regex_search(code.cbegin() + std::ptrdiff_t(at), code.cend(), match, declaration,
+                                       std::regex_constants::match_continuous))
+      continue;
+    const std::string names = match[2];
+    for (std::sregex_iterator each(names.begin(), names.end(), name), end; each != end; ++each)
+      uniforms.push_back({(*each)[1], match[1]});
   }
   return uniforms;
 }

@@ -1,4 +1,4 @@
-// Runs a fuzz target over files: inputs that once made it fail stay tests.
+// Runs a fuzz target over its seeds.
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
