@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 #include <sstream>
@@ -483,11 +484,41 @@ Result<Gml2> read_gml_2(const std::filesystem::path& file, Errors& warnings) {
   return read;
 }
 
+/// Polygons and triangles of a text.
+std::size_t polygons_written(std::string_view xml) {
+  std::size_t count = 0;
+  for (const std::string_view name : {"Polygon", "Triangle"})
+    for (std::size_t at = xml.find(name); at != std::string_view::npos; at = xml.find(name, at + 1)) {
+      const bool begins =
+          at > 0 && (xml[at - 1] == '<' || (xml[at - 1] == ':' && xml.rfind('<', at) > xml.rfind('>', at) &&
+                                            xml[xml.rfind('<', at) + 1] != '/'));
+      const char next = at + name.size() < xml.size() ? xml[at + name.size()] : ' ';
+      if (begins && (next == '>' || next == ' ' || next == '\n' || next == '\r' || next == '\t')) ++count;
+    }
+  return count;
+}
+
+/// Those that the library has made of it, each once.
+std::size_t polygons_made(const citygml::CityModel& city) {
+  std::set<const citygml::Polygon*> polygons;
+  const std::function<void(const citygml::Geometry&)> of_geometry = [&](const citygml::Geometry& geometry) {
+    for (unsigned i = 0; i < geometry.getPolygonsCount(); ++i) polygons.insert(geometry.getPolygon(i).get());
+    for (unsigned i = 0; i < geometry.getGeometriesCount(); ++i) of_geometry(geometry.getGeometry(i));
+  };
+  const std::function<void(const citygml::CityObject&)> of_object = [&](const citygml::CityObject& object) {
+    each_geometry(object,
+                  [&](const citygml::Geometry& geometry, const Placement&) { of_geometry(geometry); });
+    for (unsigned i = 0; i < object.getChildCityObjectsCount(); ++i) of_object(object.getChildCityObject(i));
+  };
+  for (const citygml::CityObject* object : city.getRootCityObjects()) of_object(*object);
+  return polygons.size();
+}
+
 }  // namespace
 
 Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
                             std::optional<double> max_detail, std::optional<glm::dvec2>* place_deg,
-                            const std::string& map) {
+                            const std::string& map, FileAccount* account) {
   const FileLocation where{file.string(), 0, 0};
   Result<Gml2> gml = read_gml_2(file, warnings);
   if (!gml) return gml.errors();
@@ -496,6 +527,7 @@ Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
   wanted.tesselate = false;  // rings are kept as they are; the assembly makes triangles
   wanted.keepVertices = true;
   try {
+    const std::size_t held = polygons_written(gml->text);
     std::istringstream stream(std::move(gml->text));
     const auto city = citygml::load(stream, wanted, complaints);
     if (!city) return error_at(where, "libcitygml cannot read it ({})", complaints->first());
@@ -503,6 +535,9 @@ Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
         CityCoordinates::find(Clues(*city, gml->system).get(), file, warnings, map);
     if (!coordinates) return coordinates.errors();
     if (place_deg) *place_deg = coordinates->place_deg();
+    if (account)
+      account->settle("polygons", held, std::min(held, polygons_made(*city)),
+                      "libcitygml makes nothing of them, or of what they belong to");
     std::vector<GeoreferencedTexture> draped =
         placed_textures(std::move(gml->draped), coordinates->are_plane(), file, warnings);
     return Reader(file, *city, *std::move(coordinates), std::move(draped), warnings, max_detail).read();

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/result.h"
+#include "scene/data/file_account.h"
 #include "scene/data/model.h"
 
 namespace parvis::scene {
@@ -18,6 +19,7 @@ namespace parvis::scene {
 /// (city_coordinates.h); `place_deg` is filled with the place on the earth where the file says it.
 Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
                             std::optional<double> max_detail = {},
-                            std::optional<glm::dvec2>* place_deg = nullptr, const std::string& map = {});
+                            std::optional<glm::dvec2>* place_deg = nullptr, const std::string& map = {},
+                            FileAccount* account = nullptr);
 
 }  // namespace parvis::scene

@@ -472,10 +472,34 @@ class CityJsonReader {
   bool has_listed_kinds_ = false;  ///< of that object
 };
 
+/// Objects by what they are, and what of their geometry is no surface.
+void account_for(const Json& city, FileAccount& account) {
+  const Json& objects = member(city, "CityObjects");
+  if (!objects.is_object()) return;
+  for (const auto& [name, object] : objects.items()) {
+    const std::string type = text(member(object, "type"));
+    const Json& geometries = member(object, "geometry");
+    const bool has_parts = !member(object, "children").empty();
+    if (!geometries.is_array() || geometries.empty())
+      account.unneeded("city objects",
+                       has_parts ? "their parts have their geometry" : "they have no geometry", name);
+    else if (type.starts_with('+'))
+      account.changed("city objects", "kinds of extensions are shown by their geometry alone", type);
+    else
+      account.used("city objects");
+    if (!geometries.is_array()) continue;
+    for (const Json& geometry : geometries)
+      if (const std::string kind = text(member(geometry, "type"));
+          kind == "MultiPoint" || kind == "MultiLineString")
+        account.left_out("geometries " + kind, "points and lines are not drawn", name);
+  }
+}
+
 }  // namespace
 
 Result<Model> read_city_model(const fs::path& file, Errors& warnings, std::optional<double> max_detail,
-                              std::optional<glm::dvec2>* place_deg, const std::string& map) {
+                              std::optional<glm::dvec2>* place_deg, const std::string& map,
+                              FileAccount* account) {
   const FileLocation where{file.string(), 0, 0};
   const Result<std::string> bytes = formats::read_unpacked(file);
   if (!bytes) return bytes.errors();
@@ -487,6 +511,7 @@ Result<Model> read_city_model(const fs::path& file, Errors& warnings, std::optio
     if (!*json) return json->errors();
     CityJsonReader reader(file, **json, warnings, max_detail, map);
     if (place_deg) *place_deg = reader.place_deg();
+    if (account) account_for(**json, *account);
     return reader.read();
   } catch (const Problem& problem) {
     return Error{problem.message, where};

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/result.h"
+#include "scene/data/file_account.h"
 #include "scene/data/model.h"
 
 namespace parvis::scene {
@@ -21,6 +22,7 @@ namespace parvis::scene {
 /// with the place on the earth (degrees: east, north) where the file says it.
 Result<Model> read_city_model(const std::filesystem::path& file, Errors& warnings,
                               std::optional<double> max_detail = {},
-                              std::optional<glm::dvec2>* place_deg = nullptr, const std::string& map = {});
+                              std::optional<glm::dvec2>* place_deg = nullptr, const std::string& map = {},
+                              FileAccount* account = nullptr);
 
 }  // namespace parvis::scene

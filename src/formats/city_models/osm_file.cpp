@@ -86,7 +86,10 @@ class OsmFileReader {
                            entity.type() == osmium::item_type::relation;
     if (!is_object) return;
     const auto& object = static_cast<const osmium::OSMObject&>(entity);
-    if (!object.visible() || deleted_.holds(object.type(), object.id())) return;
+    if (!object.visible() || deleted_.holds(object.type(), object.id())) {
+      ++osm_.deleted;
+      return;
+    }
     if (entity.type() == osmium::item_type::node) return add(static_cast<const osmium::Node&>(entity));
     if (entity.type() == osmium::item_type::way) return add(static_cast<const osmium::Way&>(entity));
     if (entity.type() == osmium::item_type::relation) add(static_cast<const osmium::Relation&>(entity));

@@ -62,6 +62,7 @@ struct OsmFile {
   /// north-west, metres on the map.
   std::array<glm::dvec2, 4> corners{};
   glm::dvec2 middle{0.0}, middle_deg{0.0};  ///< of the bounds: on the map, and degrees east and north
+  std::uint64_t deleted = 0;                ///< elements that an editor has deleted, which are not here
   std::string map;                          ///< as Model::map
   double true_north_deg = 0.0;              ///< as Model::true_north_deg, in the middle
 

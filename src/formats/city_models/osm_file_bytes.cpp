@@ -59,7 +59,7 @@ std::string bytes_of(const OsmFile& osm) {
   std::string bytes;
   for (const glm::dvec2& corner : osm.corners) append_value(bytes, corner);
   append_value(bytes, osm.middle), append_value(bytes, osm.middle_deg);
-  append_text(bytes, osm.map), append_value(bytes, osm.true_north_deg);
+  append_text(bytes, osm.map), append_value(bytes, osm.true_north_deg), append_value(bytes, osm.deleted);
   append_value(bytes, std::uint64_t(osm.nodes.size()));
   for (const auto& [id, place] : osm.nodes) append_value(bytes, id), append_value(bytes, place);
   append_value(bytes, std::uint64_t(osm.tagged_nodes.size()));
@@ -93,6 +93,7 @@ Result<OsmFile> osm_file_of(std::string_view bytes, const std::string& subject) 
   for (glm::dvec2& corner : osm.corners) corner = take_place();
   osm.middle = take_place(), osm.middle_deg = take_place();
   osm.map = take_text(taker), osm.true_north_deg = taker.take<double>();
+  osm.deleted = taker.take<std::uint64_t>();
   is_finite = is_finite && std::isfinite(osm.true_north_deg);
   take_each(taker, [&] {
     const OsmId id = taker.take<OsmId>();

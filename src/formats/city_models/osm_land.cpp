@@ -103,6 +103,8 @@ double width_m(const OsmTags& tags, double usual_m) {
 
 }  // namespace
 
+bool is_on_ground(const OsmTags& tags) { return cover_of(tags) || ribbon_of(tags); }
+
 double half_path_m(const OsmTags& tags) {
   const Ribbon* ribbon = ribbon_of(tags);
   if (!ribbon || std::string_view(ribbon->key) != "highway") return 0.0;

@@ -11,6 +11,9 @@ namespace parvis::scene {
 void add_osm_land(const OsmFile& osm, const OsmPlaces& place, double ground_m, const OsmTrenches& trenches,
                   CityAssembly& city);
 
+/// Whether tags are those of an area or a path that is drawn on level ground.
+bool is_on_ground(const OsmTags& tags);
+
 /// Half the width of a footpath, cycleway, flight of steps or track; 0 for all else.
 double half_path_m(const OsmTags& tags);
 

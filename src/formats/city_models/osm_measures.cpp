@@ -124,7 +124,7 @@ double metres_within(const OsmTags& tags, const char* key, double min_m, double 
   return given > min_m && given < max_m ? given : otherwise;
 }
 
-void report_unread_measures(const OsmFile& osm, CityAssembly& city) {
+void account_for_measures(const OsmFile& osm, FileAccount& account) {
   struct Key {
     std::string_view name;
     std::optional<double> (*read)(const std::string&);
@@ -151,8 +151,8 @@ void report_unread_measures(const OsmFile& osm, CityAssembly& city) {
     for (const auto& [name, value] : tags) {
       const auto key = std::ranges::find(keys, name, &Key::name);
       if (key != keys.end() && !value.empty() && !key->read(value))
-        city.warn(fmt::format("{} {}: its {} \"{}\" cannot be read and is passed over; expected {}", type, id,
-                              name, value.substr(0, max_shown), key->expected));
+        account.left_out("tags " + name, fmt::format("cannot be read; expected {}", key->expected),
+                         fmt::format("{} {}: {}", type, id, value.substr(0, max_shown)));
     }
   };
   for (const OsmNode& node : osm.tagged_nodes) look("node", node.id, node.tags);

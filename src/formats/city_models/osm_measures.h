@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "formats/city_models/city_assembly.h"
 #include "formats/city_models/osm_file.h"
+#include "scene/data/file_account.h"
 
 namespace parvis::scene {
 
@@ -30,7 +30,7 @@ double metres_or(const OsmTags& tags, const char* height, const char* levels, do
 /// The length that a tag gives where it lies between two others, else `otherwise`, metres.
 double metres_within(const OsmTags& tags, const char* key, double min_m, double max_m, double otherwise);
 
-/// Warns of tags whose number or unit cannot be read.
-void report_unread_measures(const OsmFile& osm, CityAssembly& city);
+/// Counts tags whose number or unit cannot be read as left out, by key.
+void account_for_measures(const OsmFile& osm, FileAccount& account);
 
 }  // namespace parvis::scene

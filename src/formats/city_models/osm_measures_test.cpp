@@ -37,12 +37,31 @@ TEST(OsmMeasures, TagsThatCannotBeReadAreNamed) {
   map.add_area(
       {{0, 0}, {10, 0}, {10, 10}, {0, 10}},
       {{"building", "yes"}, {"height", "12 ells"}, {"building:levels", "3"}, {"roof:direction", "up"}});
-  const TestTown town = read(map);
-  ASSERT_TRUE(town.model) << to_string(town.model.errors());
-  EXPECT_NEAR(bounds_of(*town.model, "RoofSurface").max.z, 9.0f, 1e-4f) << "by the levels";
-  for (const char* words :
-       {"way 1: its height \"12 ells\" cannot be read", "its roof:direction \"up\" cannot"})
-    EXPECT_NE(town.warnings.find(words), std::string::npos) << town.warnings;
+  const TestFolder folder;
+  Errors warnings;
+  FileAccount account("OpenStreetMap");
+  const Result<Model> model =
+      read_osm(folder.write("town.osm", map.text()), warnings, {}, nullptr, {}, &account);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  EXPECT_NEAR(bounds_of(*model, "RoofSurface").max.z, 9.0f, 1e-4f) << "by the levels";
+  EXPECT_EQ(account.count(Fate::left_out, "tags height"), 1u) << account.text();
+  EXPECT_EQ(account.count(Fate::left_out, "tags roof:direction"), 1u);
+  for (const char* words : {"way 1: 12 ells", "way 1: up"})
+    EXPECT_NE(account.text().find(words), std::string::npos) << account.text();
+}
+
+TEST(OsmMeasures, WhatIsNotDrawnIsCountedInTheAccount) {
+  TestMap map;
+  map.add_area({{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{"building", "yes"}});
+  for (const double x : {20.0, 30.0}) map.add_line({{x, 0}, {x, 50}}, {{"power", "line"}});
+  map.add_line({{0, 20}, {50, 20}}, {{"highway", "footway"}});
+  const TestFolder folder;
+  Errors warnings;
+  FileAccount account("OpenStreetMap");
+  ASSERT_TRUE(read_osm(folder.write("town.osm", map.text()), warnings, {}, nullptr, {}, &account));
+  EXPECT_EQ(account.count(Fate::used, "elements with a kind"), 2u) << account.text();
+  EXPECT_EQ(account.count(Fate::left_out, "elements with a kind"), 2u) << account.text();
+  EXPECT_NE(account.text().find("2 power=line"), std::string::npos) << account.text();
 }
 
 }  // namespace

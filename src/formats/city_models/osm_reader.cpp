@@ -1,6 +1,12 @@
 #include "formats/city_models/osm_reader.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <initializer_list>
+#include <map>
+#include <string_view>
+#include <utility>
 
 #include "formats/city_models/city_assembly.h"
 #include "formats/city_models/osm_buildings.h"
@@ -27,6 +33,56 @@ void add_ground(const OsmFile& osm, const glm::dvec3& origin, const OsmTrenches&
   trenches.add_level(rings, {{"ground", "LandUse", ""}}, city);
 }
 
+/// Whether something is drawn of an element with these tags; `is_alone`: it stands on level ground.
+bool is_drawn(const OsmTags& tags, bool is_alone) {
+  const auto is = [&](const char* key, std::initializer_list<std::string_view> values) {
+    return std::ranges::find(values, std::string_view(tag(tags, key))) != values.end();
+  };
+  if (says_yes(tags, "building") || says_yes(tags, "building:part") || is_street(tags) || is_bridge(tags))
+    return true;
+  if (is_alone && (is_on_ground(tags) || is("highway", {"crossing"}))) return true;
+  return is("natural", {"tree", "tree_row", "wood"}) || is("landuse", {"forest"}) ||
+         is("railway", {"tram", "rail", "light_rail", "narrow_gauge", "subway"}) ||
+         is("barrier", {"hedge", "fence", "wall", "retaining_wall", "city_wall"});
+}
+
+/// What an element is, "amenity=bench"; empty where its tags say nothing of that.
+std::string kind_of_element(const OsmTags& tags) {
+  for (const char* key :
+       {"building", "highway", "railway", "waterway", "barrier", "natural", "landuse", "leisure", "amenity",
+        "man_made", "power", "tourism", "historic", "aeroway", "public_transport"})
+    if (says_yes(tags, key)) return std::string(key) + "=" + tag(tags, key);
+  return "";
+}
+
+void account_for(const OsmFile& osm, bool has_ground, FileAccount& account) {
+  account_for_measures(osm, account);
+  account.unneeded("elements", "an editor has deleted them", "", osm.deleted);
+  std::map<std::string, std::size_t> not_drawn;
+  std::size_t drawn = 0;
+  const auto look = [&](const OsmTags& tags) {
+    const std::string kind = kind_of_element(tags);
+    if (kind.empty()) return;
+    if (is_drawn(tags, !has_ground))
+      ++drawn;
+    else
+      ++not_drawn[kind];
+  };
+  for (const OsmNode& node : osm.tagged_nodes) look(node.tags);
+  for (const OsmWay& way : osm.ways) look(way.tags);
+  for (const OsmRelation& relation : osm.relations) look(relation.tags);
+  account.used("elements with a kind", drawn);
+  std::vector<std::pair<std::size_t, std::string>> by_count;
+  for (const auto& [kind, count] : not_drawn) by_count.emplace_back(count, fmt::format("{} {}", count, kind));
+  std::ranges::sort(by_count, std::greater{});
+  std::size_t total = 0;
+  for (const auto& [count, name] : by_count) total += count;
+  if (by_count.empty()) return;
+  account.left_out("elements with a kind", "nothing is drawn of what they are", by_count.front().second,
+                   total);
+  for (std::size_t i = 1; i < by_count.size(); ++i) account.name_last(by_count[i].second);
+}
+
 /// The error for a file of which nothing is drawn.
 Error nothing_to_show(const OsmFile& osm, const FileLocation& where, bool has_ground,
                       const Errors& warnings) {
@@ -42,7 +98,8 @@ Error nothing_to_show(const OsmFile& osm, const FileLocation& where, bool has_gr
 }  // namespace
 
 Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file, Errors& warnings,
-                           const GroundOnMap& ground, std::optional<glm::dvec2>* place_deg) {
+                           const GroundOnMap& ground, std::optional<glm::dvec2>* place_deg,
+                           FileAccount* account) {
   const FileLocation where{file.string(), 0, 0};
   const glm::dvec2 size_m = osm.corners[2] - osm.corners[0];
   if (!(glm::length(size_m) < max_city_m))
@@ -50,13 +107,13 @@ Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file
                     "its bounds are wider than {:.0f} km; cut out the part that you need (osmium extract)",
                     max_city_m / 1000.0);
   if (place_deg) *place_deg = osm.middle_deg;
+  if (account) account_for(osm, bool(ground), *account);
   const glm::dvec3 origin(glm::floor(osm.middle), 0.0);
   const auto on_map = [&](OsmId node) -> std::optional<glm::dvec2> {
     const auto found = osm.nodes.find(node);
     return found == osm.nodes.end() ? std::nullopt : std::optional(found->second);
   };
   CityAssembly city(file, origin, warnings);
-  report_unread_measures(osm, city);
   const OsmPlaces place = on_map;
   const OsmRelief relief(osm, place, !ground);
   const OsmTrenches trenches(osm, relief);
@@ -83,10 +140,10 @@ Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file
 }
 
 Result<Model> read_osm(const std::filesystem::path& file, Errors& warnings, const GroundOnMap& ground,
-                       std::optional<glm::dvec2>* place_deg, const std::string& map) {
+                       std::optional<glm::dvec2>* place_deg, const std::string& map, FileAccount* account) {
   const Result<OsmFile> osm = read_osm_file(file, warnings, map);
   if (!osm) return osm.errors();
-  return model_of_osm(*osm, file, warnings, ground, place_deg);
+  return model_of_osm(*osm, file, warnings, ground, place_deg, account);
 }
 
 }  // namespace parvis::scene

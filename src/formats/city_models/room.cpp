@@ -14,19 +14,31 @@ using formats::FileContent;
 using formats::ModelReading;
 namespace fs = std::filesystem;
 
+/// With what a model shows beside what its reader has counted.
+Result<FileContent> with_shown(Result<scene::Model> model, scene::FileAccount account) {
+  if (!model) return model.errors();
+  formats::count_what_is_shown(*model, account);
+  return FileContent{*std::move(model), std::move(account)};
+}
+
 Result<FileContent> read_json(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  return formats::with_plain_account(
-      "CityJSON", scene::read_city_model(file, warnings, reading.max_detail, reading.place_deg, reading.map));
+  scene::FileAccount account("CityJSON");
+  return with_shown(
+      scene::read_city_model(file, warnings, reading.max_detail, reading.place_deg, reading.map, &account),
+      std::move(account));
 }
 
 Result<FileContent> read_gml(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  return formats::with_plain_account(
-      "CityGML", scene::read_city_gml(file, warnings, reading.max_detail, reading.place_deg, reading.map));
+  scene::FileAccount account("CityGML");
+  return with_shown(
+      scene::read_city_gml(file, warnings, reading.max_detail, reading.place_deg, reading.map, &account),
+      std::move(account));
 }
 
 Result<FileContent> read_map(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  return formats::with_plain_account(
-      "OpenStreetMap", scene::read_osm(file, warnings, reading.ground, reading.place_deg, reading.map));
+  scene::FileAccount account("OpenStreetMap");
+  return with_shown(scene::read_osm(file, warnings, reading.ground, reading.place_deg, reading.map, &account),
+                    std::move(account));
 }
 
 /// On a ground, of which only the program knows the heights, the map is read by a child and assembled here.
@@ -35,8 +47,9 @@ Result<FileContent> read_map_on_ground(const fs::path& file, const ModelReading&
   if (!reading.ground) return alone(file, reading, warnings);
   const Result<scene::OsmFile> osm = scene::read_osm_file_isolated(file, reading.map, warnings);
   if (!osm) return osm.errors();
-  return formats::with_plain_account(
-      "OpenStreetMap", scene::model_of_osm(*osm, file, warnings, reading.ground, reading.place_deg));
+  scene::FileAccount account("OpenStreetMap");
+  return with_shown(scene::model_of_osm(*osm, file, warnings, reading.ground, reading.place_deg, &account),
+                    std::move(account));
 }
 
 }  // namespace

@@ -148,6 +148,20 @@ TEST(IfcBodies, WhatGivesNoSurfaceIsNamed) {
   EXPECT_NE(house.warnings.find("IfcWall \"the lost one\" (#50)"), std::string::npos) << house.warnings;
 }
 
+TEST(IfcBodies, ObjectsAndUnknownEntitiesAreAccountedFor) {
+  const TestFolder folder;
+  Errors warnings;
+  FileAccount account("IFC");
+  const std::string text = one_object("IFCSLAB", R"(#30=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,2.,2.);
+#40=IFCEXTRUDEDAREASOLID(#30,#4,#10,3.);
+#70=IFCFLYINGCARPET('0000000000000000000008',$,'Aladdin',$,$,#7,$,$,$);
+)");
+  ASSERT_TRUE(read_ifc(folder.write("one.ifc", text), warnings, nullptr, {}, &account));
+  EXPECT_EQ(account.count(Fate::used, "IfcSlab"), 1u) << account.text();
+  EXPECT_EQ(account.count(Fate::left_out, "IFCFLYINGCARPET"), 1u) << account.text();
+  EXPECT_NE(account.text().find("#70"), std::string::npos) << account.text();
+}
+
 TEST(IfcBodies, TrueNorthTurnsWhatNoMapConversionTurns) {
   const std::string body = R"(#30=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,20.,2.);
 #40=IFCEXTRUDEDAREASOLID(#30,#4,#10,3.);

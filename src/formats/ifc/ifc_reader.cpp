@@ -180,7 +180,7 @@ std::vector<Texture> textures_of(const std::vector<IfcPicture>& pictures, const 
 }  // namespace
 
 Result<Model> read_ifc(const std::filesystem::path& file, Errors& warnings,
-                       std::optional<glm::dvec2>* place_deg, const std::string& map) {
+                       std::optional<glm::dvec2>* place_deg, const std::string& map, FileAccount* account) {
   Result<std::string> text = formats::read_unpacked(file);
   if (!text) return text.errors();
   Result<IfcBodies> bodies = ifc_bodies(*std::move(text), file.string(), warnings);
@@ -190,6 +190,7 @@ Result<Model> read_ifc(const std::filesystem::path& file, Errors& warnings,
         FileLocation{file.string(), 0, 0},
         "no object has a body: export the building with its 3D geometry (representation \"Body\")");
   IfcAssembly assembly(formats::model_stem(file));
+  if (account) *account = std::move(bodies->account);
   bodies->place = on_map(bodies->place, map);
   for (IfcShape& shape : bodies->shapes) turn_to_map(bodies->place.x_axis, shape);
   assembly.set_origin(origin_of(bodies->shapes));

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/result.h"
+#include "scene/data/file_account.h"
 #include "scene/data/model.h"
 
 namespace parvis::scene {
@@ -19,6 +20,7 @@ namespace parvis::scene {
 /// whose shape cannot be built. Errors: another schema, a file without bodies. IFC++ may crash on damaged
 /// files: to be called through formats::isolated.
 Result<Model> read_ifc(const std::filesystem::path& file, Errors& warnings,
-                       std::optional<glm::dvec2>* place_deg = nullptr, const std::string& map = {});
+                       std::optional<glm::dvec2>* place_deg = nullptr, const std::string& map = {},
+                       FileAccount* account = nullptr);
 
 }  // namespace parvis::scene

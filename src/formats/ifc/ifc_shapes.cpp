@@ -23,6 +23,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -308,6 +310,43 @@ void add_product(ProductShapeData& product, const std::shared_ptr<IfcObjectDefin
   }
 }
 
+/// An object by its kind, and its representations that are no bodies.
+void account_for(const ProductShapeData& product, const IfcObjectDefinition& object, bool is_shown,
+                 FileAccount& account) {
+  const bool has_body = std::ranges::any_of(product.m_vec_representations, [](const auto& representation) {
+    return representation && is_body(*representation);
+  });
+  if (is_shown)
+    account.used(object.className());
+  else if (!is_built(object))
+    account.unneeded(object.className(), "it bounds room or stands for others, and is not built");
+  else if (has_body)
+    account.left_out(object.className(), "IFC++ makes no surface of its body", described(object));
+  for (const auto& representation : product.m_vec_representations)
+    if (representation && !is_body(*representation))
+      account.unneeded("representations " + utf8(representation->m_representation_identifier),
+                       "they are drawn on plans, not built");
+}
+
+/// Instances of the text that IFC++ has no entity of, by their kinds.
+void account_for_unknown(const std::string& text, const BuildingModel& building, FileAccount& account) {
+  const auto& known = building.getMapIfcEntities();
+  for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1)) {
+    std::size_t first = at;
+    while (first > 0 && std::isdigit(static_cast<unsigned char>(text[first - 1]))) --first;
+    if (first == 0 || first == at || text[first - 1] != '#') continue;
+    int id = 0;
+    if (std::from_chars(text.data() + first, text.data() + at, id).ec != std::errc() || known.contains(id))
+      continue;
+    std::size_t end = at + 1;
+    while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '_'))
+      ++end;
+    if (end > at + 1)
+      account.left_out(text.substr(at + 1, end - at - 1), "IFC++ knows no such entity",
+                       fmt::format("#{}", id));
+  }
+}
+
 /// Faces of one body that have colours of their own are shown in that of the body.
 void warn_of_coloured_faces(const BuildingModel& building, Complaints& complaints) {
   for (const auto& [id, entity] : building.getMapIfcEntities())
@@ -371,11 +410,15 @@ Result<IfcBodies> ifc_bodies(std::string text, const std::string& name, Errors& 
     for (const auto& [id, product] : converter.getShapeInputData()) {
       const std::shared_ptr<IfcObjectDefinition> object =
           product ? product->m_ifc_object_definition.lock() : nullptr;
-      if (!object || !is_built(*object)) continue;
-      add_product(*product, object, cellars, textures, bodies.shapes);
+      if (!object) continue;
+      const std::size_t before = bodies.shapes.size();
+      if (is_built(*object)) add_product(*product, object, cellars, textures, bodies.shapes);
+      account_for(*product, *object, bodies.shapes.size() > before, bodies.account);
+      if (!is_built(*object)) continue;
       report_lost_items(*product, *object, complaints);
     }
     complaints.name_entities(*building);
+    account_for_unknown(text, *building, bodies.account);
     bodies.pictures = textures.pictures();
     bodies.place = georeference_of(*building);
   } catch (const std::exception& failure) {

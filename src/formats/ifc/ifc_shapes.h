@@ -10,6 +10,7 @@
 #include "base/result.h"
 #include "formats/ifc/ifc_georeference.h"
 #include "formats/ifc/ifc_textures.h"
+#include "scene/data/file_account.h"
 
 namespace parvis::scene {
 
@@ -34,6 +35,7 @@ struct IfcShape {
 
 /// What a file holds.
 struct IfcBodies {
+  FileAccount account{"IFC"};
   std::vector<IfcShape> shapes;
   std::vector<IfcPicture> pictures;
   IfcGeoreference place;

@@ -10,7 +10,11 @@ namespace {
 
 Result<formats::FileContent> read(const std::filesystem::path& file, const formats::ModelReading& reading,
                                   Errors& warnings) {
-  return formats::with_plain_account("IFC", scene::read_ifc(file, warnings, reading.place_deg, reading.map));
+  scene::FileAccount account("IFC");
+  Result<scene::Model> model = scene::read_ifc(file, warnings, reading.place_deg, reading.map, &account);
+  if (!model) return model.errors();
+  formats::count_what_is_shown(*model, account);
+  return formats::FileContent{*std::move(model), std::move(account)};
 }
 
 /// ISO 10303-21, the text form of STEP.

@@ -246,7 +246,9 @@ Result<HeightGrid> read_height_grid(const std::filesystem::path& file, std::opti
         {fmt::format("of {} x {} samples every {}. is taken, as many as can be shown", width, height, step),
          where});
   const GDALRasterBandH band = GDALGetRasterBand(opened.get(), 1);
-  if (!read_heights(band, height_unit_m(opened.get(), band, where, warnings), width, height, grid))
+  grid.file_columns = width, grid.file_rows = height, grid.bands = GDALGetRasterCount(opened.get());
+  grid.height_unit_m = height_unit_m(opened.get(), band, where, warnings);
+  if (!read_heights(band, grid.height_unit_m, width, height, grid))
     return error_at(where, "its samples cannot be read ({})", CPLGetLastErrorMsg());
   const Georeference own = given ? *given : about_the_middle(width, height, *cell_m);
   if (const Status placed = place(own, width, height, map, grid); !placed)

@@ -9,8 +9,12 @@ namespace {
 
 Result<formats::FileContent> read_grid(const std::filesystem::path& file,
                                        const formats::ModelReading& reading, Errors& warnings) {
-  return formats::with_plain_account(
-      "GeoTIFF", scene::read_terrain(file, reading.cell_m, warnings, reading.place_deg, reading.map));
+  scene::FileAccount account("GeoTIFF");
+  Result<scene::Model> model =
+      scene::read_terrain(file, reading.cell_m, warnings, reading.place_deg, reading.map, &account);
+  if (!model) return model.errors();
+  formats::count_what_is_shown(*model, account);
+  return formats::FileContent{*std::move(model), std::move(account)};
 }
 
 /// TIFF and BigTIFF, of either byte order.

@@ -78,10 +78,27 @@ Mesh tile(const HeightGrid& grid, const glm::dvec3& origin, int first_column, in
   return mesh;
 }
 
+void account_for(const HeightGrid& grid, FileAccount& account) {
+  const std::size_t holes = std::size_t(
+      std::ranges::count_if(grid.points, [](const glm::dvec3& point) { return !std::isfinite(point.z); }));
+  const std::size_t all = std::size_t(grid.file_columns) * std::size_t(grid.file_rows);
+  if (grid.height_unit_m != 1.0)
+    account.changed("samples", fmt::format("their unit of {:.6g} m becomes metres", grid.height_unit_m), "",
+                    grid.points.size() - holes);
+  else
+    account.used("samples", grid.points.size() - holes);
+  account.unneeded("samples", "they are holes: by value, mask or alpha", "", holes);
+  account.changed("samples", "those between the ones that are taken are left to interpolation", "",
+                  all - std::min(all, grid.points.size()));
+  if (grid.bands > 1)
+    account.left_out("bands", "the first alone is read, as heights", "", std::size_t(grid.bands - 1));
+}
+
 }  // namespace
 
 Result<Model> read_terrain(const std::filesystem::path& file, std::optional<double> cell_m, Errors& warnings,
-                           std::optional<glm::dvec2>* place_deg, const std::string& map) {
+                           std::optional<glm::dvec2>* place_deg, const std::string& map,
+                           FileAccount* account) {
   const Result<HeightGrid> grid = read_height_grid(file, cell_m, warnings, map);
   if (!grid) return grid.errors();
   const FileLocation where{file.string(), 0, 0};
@@ -92,6 +109,7 @@ Result<Model> read_terrain(const std::filesystem::path& file, std::optional<doub
   model.origin = *origin;
   model.map = grid->map, model.true_north_deg = grid->true_north_deg;
   if (place_deg) *place_deg = grid->place_deg;
+  if (account) account_for(*grid, *account);
   model.nodes.front().name = model.name;
   model.materials.push_back(surface_material("TINRelief"));
   for (int row = 0; row + 1 < grid->rows; row += tile_cells)

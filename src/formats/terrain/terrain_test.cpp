@@ -220,6 +220,10 @@ TEST(Terrain, SamplesThatAMaskLeavesOutAreHoles) {
   const Result<Model> model = read_terrain(file, std::nullopt, warnings);
   ASSERT_TRUE(model) << to_string(model.errors());
   EXPECT_NEAR(bounds(*model).size().x, 2.0f * (width / 2 - 1), 1e-3f) << "the eastern half alone";
+  FileAccount account("GeoTIFF");
+  ASSERT_TRUE(read_terrain(file, std::nullopt, warnings, nullptr, {}, &account));
+  EXPECT_EQ(account.count(Fate::used, "samples"), std::size_t(width / 2 * height)) << account.text();
+  EXPECT_EQ(account.count(Fate::unneeded, "samples"), std::size_t(width / 2 * height));
 }
 
 TEST(Terrain, EverySecondSampleStandsAtItsOwnPlace) {
