@@ -9,6 +9,7 @@
 #include "base/bounds.h"
 #include "base/files.h"
 #include "formats/terrain/city_surfaces.h"
+#include "places/dressing/clock_of_place.h"
 #include "places/dressing/street_view.h"
 #include "scene/roads/road_from_polygons.h"
 
@@ -180,7 +181,11 @@ std::string nodes_of_kerbs(const Model& model, const std::vector<scene::Road>& s
                part.object.find(" wood") == std::string::npos;
       });
   const std::string circle = furnished_circle(streets, eye);
-  return fmt::format("streetFurniture(kind=\"lamps\"{})\nparkedCars(share=0.4{})\n", circle, circle) +
+  return fmt::format(
+             "streetFurniture(kind=\"lamps\"{})\n"
+             "lamp(of=\"street lamp *\", position=\"0 0 4.45\", flux_lm=5000)\n"
+             "parkedCars(share=0.4{})\n",
+             circle, circle) +
          (has_trees ? "" : fmt::format("streetTrees(kind=\"plane\", spacing=12, clear=2.5{})\n", circle));
 }
 
@@ -192,17 +197,17 @@ std::string camera(const char* name, const View& view) {
 /// The sun of a place in the afternoon, in its summer.
 std::string day_light(const std::optional<glm::dvec2>& place_deg) {
   constexpr glm::dvec2 anywhere_deg(10.0, 48.0);
+  constexpr double central_europe_h = 2.0;
   constexpr int june_solstice = 172, december_solstice = 355;
-  constexpr double degrees_per_hour = 15.0, summer_time_h = 1.0;
   const auto rounded = [](double value) {
     const double hundredths = std::round(100.0 * value);
     return hundredths == 0.0 ? 0.0 : hundredths / 100.0;  // no -0
   };
   const glm::dvec2 deg = place_deg.value_or(anywhere_deg);
   return fmt::format(
-      "dayLight(latitude={}, longitude={}, standardMeridian={:.0f}, julianDay={}, timeOfDay=16, "
+      "dayLight(latitude={}, longitude={}, standardMeridian={}, julianDay={}, timeOfDay=16, "
       "turbidity=2.2)\n",
-      rounded(deg.y), rounded(deg.x), std::floor(deg.x / degrees_per_hour + 0.5) + summer_time_h,
+      rounded(deg.y), rounded(deg.x), place_deg ? summer_clock_h(deg) : central_europe_h,
       deg.y < 0.0 ? december_solstice : june_solstice);
 }
 
@@ -247,7 +252,12 @@ std::string bare_scene(const Model& model, const std::string& file,
   if (const std::string dressing = is_town ? dressing_of(model, is_alone) : std::string(); !dressing.empty())
     script += fmt::format(" {{\n{}}}", dressing);
   script += '\n';
-  if (!surfaces.empty()) script += "streets(of=\"place\")\n";
+  if (!surfaces.empty())
+    script += "streets(of=\"place\")\n";
+  else if (is_town && !is_land)
+    script +=
+        "// The file has no roads: road(path=\"x y, x y\") adds streets, which traffic, lamps and parked "
+        "cars need.\n";
   script += is_town ? "terrain_plane()\n" : "terrain_plane(surface=\"paving\", beyond=\"lawn\")\n";
   if (has_surface(model, "SolitaryVegetationObject")) script += "grownTrees(of=\"place\")\n";
   script += nodes_of_kerbs(model, surfaces, street.eye);
