@@ -16,7 +16,7 @@ target_compile_definitions(parvis_options INTERFACE GLM_FORCE_XYZW_ONLY GLM_ENAB
 target_include_directories(parvis_options INTERFACE ${CMAKE_SOURCE_DIR}/src)
 if(PARVIS_SANITIZE)  # one build for tests and fuzzers; without PARVIS_WARNINGS, for clang has other ones than gcc
   set_property(TARGET parvis_options PROPERTY INTERFACE_COMPILE_OPTIONS
-               -fsanitize=address,undefined,fuzzer-no-link -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+               -fsanitize=address,undefined,fuzzer-no-link -fno-sanitize-recover=undefined -fno-omit-frame-pointer -pthread)
   target_link_options(parvis_options INTERFACE -fsanitize=address,undefined)
 endif()
 
@@ -62,21 +62,31 @@ function(parvis_fuzzers room)  # further arguments: libraries
 endfunction()
 
 # Headers that nearly every source includes, compiled once for all rooms (half of the time of a typical source), and the
-# same with GoogleTest for all tests. Not with clang, whose tools and fuzzers then see what each file includes itself.
-set(PARVIS_USES_PCH OFF)
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  set(PARVIS_USES_PCH ON)
-  set(common_headers <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <ranges> <set>
-                     <span> <string> <unordered_map> <variant> <vector> <fmt/format.h> <glm/glm.hpp>
-                     <glm/gtc/matrix_transform.hpp>)
-  file(WRITE ${CMAKE_BINARY_DIR}/empty.cpp "")
-  add_library(parvis_pch STATIC ${CMAKE_BINARY_DIR}/empty.cpp)
-  target_link_libraries(parvis_pch PRIVATE parvis_options fmt::fmt glm::glm)
-  target_precompile_headers(parvis_pch PRIVATE ${common_headers})
-  add_library(parvis_test_pch STATIC ${CMAKE_BINARY_DIR}/empty.cpp)
-  target_link_libraries(parvis_test_pch PRIVATE parvis_options parvis_test_options fmt::fmt glm::glm GTest::gtest)
-  target_precompile_headers(parvis_test_pch PRIVATE ${common_headers} <gtest/gtest.h>)
+# same with GoogleTest for all tests. The preset tidy leaves them out: clang-tidy must see what each file includes itself.
+set(common_headers <algorithm> <array> <cassert> <cmath> <cstdint> <cstring> <filesystem> <fstream> <functional> <limits> <map>
+                   <memory> <numbers> <numeric> <optional> <ranges> <set> <span> <string> <string_view> <tuple>
+                   <unordered_map> <utility> <variant> <vector> <fmt/format.h> <glm/glm.hpp> <glm/gtc/constants.hpp>
+                   <glm/gtc/matrix_transform.hpp> <glm/gtc/quaternion.hpp>)
+file(WRITE ${CMAKE_BINARY_DIR}/empty.cpp "")
+add_library(parvis_pch STATIC ${CMAKE_BINARY_DIR}/empty.cpp)
+target_link_libraries(parvis_pch PRIVATE parvis_options fmt::fmt glm::glm)
+target_precompile_headers(parvis_pch PRIVATE ${common_headers})
+add_library(parvis_test_pch STATIC ${CMAKE_BINARY_DIR}/empty.cpp)
+target_link_libraries(parvis_test_pch PRIVATE parvis_options parvis_test_options fmt::fmt glm::glm GTest::gtest)
+target_precompile_headers(parvis_test_pch PRIVATE ${common_headers} <gtest/gtest.h>)
+
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")  # without the time of day in it, so that the compiler cache knows it again
+  target_compile_options(parvis_pch PRIVATE "SHELL:-Xclang -fno-pch-timestamp")
+  target_compile_options(parvis_test_pch PRIVATE "SHELL:-Xclang -fno-pch-timestamp")
 endif()
+
+# With PARVIS_UNITY several sources of a target are compiled as one file, which halves the time of a whole build. Names in
+# unnamed namespaces are therefore unique within a room, and the preset develop, without batches, finds missing includes.
+function(parvis_batches target)
+  if(PARVIS_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  endif()
+endfunction()
 
 # Sets `result` to the names of all rooms of a floor below `floor`.
 function(parvis_rooms_below floor result)
@@ -108,9 +118,8 @@ function(parvis_room name)
   if(sources)
     add_library(parvis_${name} STATIC ${sources})
     target_link_libraries(parvis_${name} PUBLIC parvis_options ${ROOM_USES} ${ROOM_LIBRARIES} PRIVATE ${ROOM_PRIVATE_LIBRARIES})
-    if(PARVIS_USES_PCH)
-      target_precompile_headers(parvis_${name} REUSE_FROM parvis_pch)
-    endif()
+    target_precompile_headers(parvis_${name} REUSE_FROM parvis_pch)
+    parvis_batches(parvis_${name})
   else()  # headers and GLSL alone
     add_library(parvis_${name} INTERFACE)
     target_link_libraries(parvis_${name} INTERFACE parvis_options ${ROOM_USES} ${ROOM_LIBRARIES})
@@ -119,17 +128,15 @@ function(parvis_room name)
   if(test_support)
     add_library(parvis_${name}_test_support STATIC EXCLUDE_FROM_ALL ${test_support})
     target_link_libraries(parvis_${name}_test_support PUBLIC parvis_${name} ${ROOM_TEST_USES} PRIVATE ${ROOM_PRIVATE_LIBRARIES})
-    if(PARVIS_USES_PCH)
-      target_precompile_headers(parvis_${name}_test_support REUSE_FROM parvis_pch)
-    endif()
+    target_precompile_headers(parvis_${name}_test_support REUSE_FROM parvis_pch)
+    parvis_batches(parvis_${name}_test_support)
   endif()
 
   if(tests)
     add_executable(${name}_test ${tests})
     target_link_libraries(${name}_test PRIVATE ${tested_rooms} parvis_${name} ${ROOM_TEST_USES} parvis_test_options ${ROOM_PRIVATE_LIBRARIES} parvis_test_main)
-    if(PARVIS_USES_PCH)
-      target_precompile_headers(${name}_test REUSE_FROM parvis_test_pch)
-    endif()
+    target_precompile_headers(${name}_test REUSE_FROM parvis_test_pch)
+    parvis_batches(${name}_test)
     set(label unit)
     if(name STREQUAL gl OR "parvis_gl" IN_LIST ROOM_USES OR "parvis_gl" IN_LIST ROOM_TEST_USES)
       set(label draws)

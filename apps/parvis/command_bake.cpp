@@ -9,11 +9,11 @@
 namespace parvis {
 namespace {
 
-struct Arguments : SceneArguments {
+struct BakeArguments : SceneArguments {
   std::filesystem::path plan;
 };
 
-Status bake(Arguments arguments) {
+Status bake(BakeArguments arguments) {
   if (!arguments.plan.empty())
     if (Status status = arguments.expect_one_scenario(); !status) return status;
   const Result<machines::Processes> processes = machines::Processes::join();
@@ -47,7 +47,7 @@ void add_bake(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand(
       "bake", fmt::format("Bakes what takes long and stays the same, and keeps it beside the scene: {}",
                           names_of_steps()));
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<BakeArguments>();
   arguments->add_scene(*command);
   arguments->add_state(*command);
   command->add_option(

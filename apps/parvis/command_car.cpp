@@ -12,7 +12,7 @@
 namespace parvis {
 namespace {
 
-struct Arguments {
+struct CarArguments {
   std::filesystem::path body, output;
 };
 
@@ -56,7 +56,7 @@ Status write_with_copy(const car_bodies::CarCopy& copy, const std::filesystem::p
   return status;
 }
 
-Status propose(const Arguments& arguments) {
+Status propose_car(const CarArguments& arguments) {
   const Result<scene::Model> model = read(arguments.body);
   if (!model) return model.errors();
   if (arguments.output.empty()) {
@@ -82,14 +82,14 @@ Status propose(const Arguments& arguments) {
 void add_car(CLI::App& app, Chosen& chosen) {
   CLI::App* command =
       app.add_subcommand("car", "Proposes paint, glass, lamps and wheels for a car's model, as a script");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CarArguments>();
   command->add_option("body", arguments->body, "The car, or its bare body: a model file")->required();
   command->add_option(
       "-o,--output", arguments->output,
       "The script to write (.xp), with a copy of the model beside it where the script needs one; "
       "absent: it is printed");
   command->footer("Example: parvis car body.obj -o body.xp");
-  command->callback([arguments, &chosen] { chosen = [arguments] { return propose(*arguments); }; });
+  command->callback([arguments, &chosen] { chosen = [arguments] { return propose_car(*arguments); }; });
 }
 
 }  // namespace parvis

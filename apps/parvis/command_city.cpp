@@ -6,13 +6,13 @@
 namespace parvis {
 namespace {
 
-struct Arguments {
+struct CityArguments {
   std::string name;
   std::filesystem::path folder;
   std::uint64_t seed = 1;
 };
 
-Status write_city(const Arguments& arguments) {
+Status write_city(const CityArguments& arguments) {
   const auto write = arguments.name == "kitchen" ? kitchen::write_kitchen : city::write_paper_city;
   if (Status status = write(arguments.folder, arguments.seed); !status) return status;
   fmt::print("{} is written; see it with: parvis view {}\n", arguments.name,
@@ -24,7 +24,7 @@ Status write_city(const Arguments& arguments) {
 
 void add_city(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("city", "Writes a procedural place: script, models, pictures");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CityArguments>();
   command
       ->add_option("name", arguments->name,
                    "paper: the city of Meyer and Loscos 2003, 1 km2, 500,000 triangles; "

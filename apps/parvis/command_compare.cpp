@@ -6,11 +6,11 @@
 namespace parvis {
 namespace {
 
-struct Arguments {
+struct CompareArguments {
   std::filesystem::path test, reference, mask, map;
 };
 
-Status compare(const Arguments& arguments) {
+Status compare(const CompareArguments& arguments) {
   const Result<Image8> test = read_image8(arguments.test);
   if (!test) return test.errors();
   const Result<Image8> reference = read_image8(arguments.reference);
@@ -33,7 +33,7 @@ Status compare(const Arguments& arguments) {
 
 void add_compare(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("compare", "How different two pictures are: FLIP, PSNR, SSIM");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CompareArguments>();
   command->add_option("a", arguments->test, "The picture to be judged")->required();
   command->add_option("b", arguments->reference, "The picture that it is judged by")->required();
   command->add_option("--mask", arguments->mask, "Only where this picture is white");

@@ -7,12 +7,12 @@
 namespace parvis {
 namespace {
 
-struct Arguments : SceneArguments {
+struct ExportArguments : SceneArguments {
   std::vector<std::string> objects;  ///< none: all that are to be seen
   std::filesystem::path output{"scene.glb"};
 };
 
-Result<std::vector<const scene::Object*>> chosen_objects(const Arguments& arguments,
+Result<std::vector<const scene::Object*>> chosen_objects(const ExportArguments& arguments,
                                                          const scene::Scene& scene) {
   std::vector<const scene::Object*> chosen;
   std::vector<std::string> names;
@@ -29,7 +29,7 @@ Result<std::vector<const scene::Object*>> chosen_objects(const Arguments& argume
   return chosen;
 }
 
-Status write_scene(const Arguments& arguments) {
+Status write_scene(const ExportArguments& arguments) {
   if (arguments.output.extension() != ".glb")
     return error("{}: a scene is written as .glb", arguments.output.string());
   if (Status status = arguments.expect_one_scenario(); !status) return status;
@@ -51,7 +51,7 @@ Status write_scene(const Arguments& arguments) {
 void add_export(CLI::App& app, Chosen& chosen) {
   CLI::App* command =
       app.add_subcommand("export", "A scene or parts of it as glTF, for Blender and other programs");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ExportArguments>();
   arguments->add_scene(*command);
   arguments->add_state(*command);
   command->add_option("--object", arguments->objects,

@@ -1,13 +1,13 @@
 // parvis reference: the ray-traced truth of a picture, and the mask of what mirrors in it; with
 // --path-traced, photographs as a real camera would take them.
 #include <cmath>
-#include <csignal>
 
 #include "base/image_io.h"
 #include "commands.h"
 #include "graphics/shading/tone_curve.h"
 #include "house/stage/output_names.h"
 #include "house/stage/photographs.h"
+#include "interruption.h"
 #include "machines/processes.h"
 #include "scene_arguments.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int truth_samples = 16, photograph_samples = 64;
 
-struct Arguments : SceneArguments {
+struct ReferenceArguments : SceneArguments {
   std::vector<std::filesystem::path> outputs{"reference.png"};
   std::filesystem::path mask;
   std::optional<int> samples;
@@ -29,9 +29,8 @@ struct Arguments : SceneArguments {
   void add_photograph(CLI::App& command);
 };
 
-std::atomic<bool> is_interrupted = false;
-
-Status write_traced(const Arguments& arguments, const reference::TracedPicture& traced, float exposure) {
+Status write_traced(const ReferenceArguments& arguments, const reference::TracedPicture& traced,
+                    float exposure) {
   fmt::print("{:.1f} million rays in {:.1f} s: {:.2f} million per second\n", double(traced.rays) * 1e-6,
              traced.seconds, double(traced.rays) * 1e-6 / traced.seconds);
   if (!arguments.mask.empty())
@@ -45,7 +44,7 @@ Status write_traced(const Arguments& arguments, const reference::TracedPicture& 
   return Done{};
 }
 
-Status trace(const Arguments& arguments) {
+Status trace(const ReferenceArguments& arguments) {
   int width = 0, height = 0;
   std::vector<std::filesystem::path> files = arguments.outputs;
   if (!arguments.mask.empty()) files.push_back(arguments.mask);
@@ -70,8 +69,8 @@ Status trace(const Arguments& arguments) {
 }
 
 /// The cameras that the user named, or all, or a circle; else the scene's first.
-Result<std::vector<scene::NamedCamera>> chosen_cameras(const Arguments& arguments, const house::Play& play,
-                                                       float aspect) {
+Result<std::vector<scene::NamedCamera>> chosen_cameras(const ReferenceArguments& arguments,
+                                                       const house::Play& play, float aspect) {
   std::vector<std::string> names = arguments.cameras;
   if (arguments.all_cameras)
     for (const scene::NamedCamera& camera : play.scene.cameras) names.push_back(camera.name);
@@ -97,7 +96,7 @@ Result<std::vector<scene::NamedCamera>> chosen_cameras(const Arguments& argument
   return cameras;
 }
 
-Status photograph(const Arguments& arguments) {
+Status photograph(const ReferenceArguments& arguments) {
   house::PhotographJob job = arguments.job;
   if (Status status = arguments.read_size(job.width, job.height); !status) return status;
   if (Status status = arguments.expect_one_scenario(); !status) return status;
@@ -111,15 +110,14 @@ Status photograph(const Arguments& arguments) {
   job.cameras = *std::move(cameras);
   job.pictures = arguments.outputs;
   job.options.samples_per_pixel = arguments.samples.value_or(photograph_samples);
-  job.options.is_interrupted = &is_interrupted;
-  for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { is_interrupted = true; });
+  job.options.is_interrupted = &interruption();
   job.options.processes = *processes;
   if (Status status = house::take_photographs(play->scene, job); !status) return status;
   processes->leave();
   return Done{};
 }
 
-void Arguments::add_photograph(CLI::App& command) {
+void ReferenceArguments::add_photograph(CLI::App& command) {
   CLI::Option* on =
       command.add_flag("--path-traced", is_path_traced,
                        "A photograph: sun, sky and light between surfaces, without approximation");
@@ -161,7 +159,7 @@ void Arguments::add_photograph(CLI::App& command) {
 
 void add_reference(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("reference", "The same picture by the ray tracer: the truth");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ReferenceArguments>();
   arguments->add_scene(*command);
   arguments->add_picture(*command);
   command->add_option("--camera", arguments->cameras,

@@ -1,8 +1,6 @@
 // parvis render: a picture or a film of a scene.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <csignal>
 
 #include "base/content_hash.h"
 #include "base/image_io.h"
@@ -14,6 +12,7 @@
 #include "house/stage/film.h"
 #include "house/stage/output_names.h"
 #include "house/stage/probe.h"
+#include "interruption.h"
 #include "machines/processes.h"
 #include "reflections/methods/registry.h"
 #include "scene/data/scene_key.h"
@@ -22,9 +21,7 @@
 namespace parvis {
 namespace {
 
-std::atomic<bool> is_interrupted = false;
-
-struct Arguments : SceneArguments {
+struct RenderArguments : SceneArguments {
   std::filesystem::path output = "picture.png";
   double seconds = 0.0;
   int frames_per_second = 24;
@@ -32,7 +29,7 @@ struct Arguments : SceneArguments {
   std::vector<std::string> probes;  ///< "X,Y": pixels of the picture
 };
 
-Status draw(house::Stage& stage, const Arguments& arguments, int width, int height) {
+Status draw(house::Stage& stage, const RenderArguments& arguments, int width, int height) {
   stage.play().settle();
   const Result<Camera> camera = stage.camera(arguments.camera);
   if (!camera) return camera.errors();
@@ -42,7 +39,7 @@ Status draw(house::Stage& stage, const Arguments& arguments, int width, int heig
 }
 
 /// Frames of a film, and errors of what is none.
-Result<int> frames_of(const Arguments& arguments, const std::filesystem::path& output) {
+Result<int> frames_of(const RenderArguments& arguments, const std::filesystem::path& output) {
   const int frames = int(std::lround(arguments.seconds * arguments.frames_per_second));
   if (frames < 1)
     return error("{}: {} s at {} frames per second are no frame; give it more --seconds", output.string(),
@@ -61,7 +58,7 @@ void add(ContentHash& hash, const std::vector<scene::Node>& nodes) {
 }
 
 /// All that the frames of a film depend on.
-std::uint64_t film_key(house::Stage& stage, const Arguments& arguments, int width, int height) {
+std::uint64_t film_key(house::Stage& stage, const RenderArguments& arguments, int width, int height) {
   ContentHash hash;
   const scene::Scene& scene = stage.scene();
   hash.add(scene::scene_key(scene));
@@ -98,7 +95,7 @@ Status expect_single_frames(const house::Stage& stage) {
 }
 
 /// A film whose frames several processes divide, or have begun to.
-Status render_divided_film(house::Stage& stage, const Arguments& arguments,
+Status render_divided_film(house::Stage& stage, const RenderArguments& arguments,
                            const std::filesystem::path& output, int width, int height,
                            const machines::Processes& processes) {
   if (Status status = expect_single_frames(stage); !status) return status;
@@ -110,7 +107,7 @@ Status render_divided_film(house::Stage& stage, const Arguments& arguments,
   job.width = width, job.height = height;
   job.frames_per_second = arguments.frames_per_second, job.frames = *frames;
   job.key = film_key(stage, arguments, width, height);
-  job.is_interrupted = &is_interrupted;
+  job.is_interrupted = &interruption();
   job.draw = [&](int frame) -> Result<Image8> {
     for (; now < frame; ++now) stage.play().advance(1.0 / arguments.frames_per_second);
     if (Status status = draw(stage, arguments, width, height); !status) return status.errors();
@@ -121,10 +118,9 @@ Status render_divided_film(house::Stage& stage, const Arguments& arguments,
   return Done{};
 }
 
-Status render_film(house::Stage& stage, const Arguments& arguments, const std::filesystem::path& output,
+Status render_film(house::Stage& stage, const RenderArguments& arguments, const std::filesystem::path& output,
                    int width, int height, const machines::Processes& processes) {
-  for (const int number : {SIGINT, SIGTERM})
-    std::signal(number, [](int) { is_interrupted = true; });  // half a film is taken away, not left
+  const std::atomic<bool>& is_interrupted = interruption();  // half a film is taken away, not left
   const bool is_begun = std::filesystem::exists(house::frames_folder(output)) && expect_single_frames(stage);
   if (processes.are_several() || is_begun)
     return render_divided_film(stage, arguments, output, width, height, processes);
@@ -149,7 +145,7 @@ Status render_film(house::Stage& stage, const Arguments& arguments, const std::f
 }
 
 /// Pixels of --probe.
-Result<std::vector<glm::ivec2>> probed_pixels(const Arguments& arguments, int width, int height) {
+Result<std::vector<glm::ivec2>> probed_pixels(const RenderArguments& arguments, int width, int height) {
   std::vector<glm::ivec2> pixels;
   for (const std::string& text : arguments.probes) {
     glm::ivec2 pixel(0);
@@ -164,7 +160,7 @@ Result<std::vector<glm::ivec2>> probed_pixels(const Arguments& arguments, int wi
 }
 
 /// What --probe asks for, of the picture just drawn.
-Status print_probes(const house::Stage& stage, const Arguments& arguments, int width, int height) {
+Status print_probes(const house::Stage& stage, const RenderArguments& arguments, int width, int height) {
   const Result<std::vector<glm::ivec2>> pixels = probed_pixels(arguments, width, height);
   if (!pixels) return pixels.errors();
   const Result<Camera> camera = stage.camera(arguments.camera);
@@ -176,8 +172,8 @@ Status print_probes(const house::Stage& stage, const Arguments& arguments, int w
 }
 
 /// A picture, or a film: of --seconds, or as long as the tour.
-Status render_one(house::Stage& stage, Arguments arguments, const std::filesystem::path& output, int width,
-                  int height, const machines::Processes& processes) {
+Status render_one(house::Stage& stage, RenderArguments arguments, const std::filesystem::path& output,
+                  int width, int height, const machines::Processes& processes) {
   if (!arguments.tour.empty()) {
     const Result<double> length_s = stage.play().actions().start_tour(arguments.tour);
     if (!length_s) return length_s.errors();
@@ -191,7 +187,7 @@ Status render_one(house::Stage& stage, Arguments arguments, const std::filesyste
 }
 
 /// The scene as it begins, or a picture or film of each scenario.
-Status render_states(house::Stage& stage, const Arguments& arguments, int width, int height,
+Status render_states(house::Stage& stage, const RenderArguments& arguments, int width, int height,
                      const machines::Processes& processes) {
   if (arguments.scenarios.size() < 2)
     return render_one(stage, arguments, arguments.output, width, height, processes);
@@ -205,7 +201,7 @@ Status render_states(house::Stage& stage, const Arguments& arguments, int width,
   return Done{};
 }
 
-Status render_scene(const Arguments& arguments) {
+Status render_scene(const RenderArguments& arguments) {
   int width = 0, height = 0;
   if (Status status = arguments.read_size(width, height); !status) return status;
   if (const auto pixels = probed_pixels(arguments, width, height); !pixels) return pixels.errors();
@@ -224,7 +220,7 @@ Status render_scene(const Arguments& arguments) {
 
 void add_render(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("render", "A picture of a scene, or a film of it");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<RenderArguments>();
   arguments->add_scene(*command);
   arguments->add_camera(*command);
   arguments->add_picture(*command);

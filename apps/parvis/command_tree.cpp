@@ -1,8 +1,6 @@
 // parvis tree: a real tree from photographs.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -29,13 +27,12 @@
 #include "commands.h"
 #include "graphics/gl/context.h"
 #include "house/stage/output_names.h"
+#include "interruption.h"
 #include "strict_numbers.h"
 #include "tree_products.h"
 
 namespace parvis {
 namespace {
-
-std::atomic<bool> is_interrupted = false;
 
 /// Beside what a command writes: what it has done until that is written.
 KeptParts checkpoint_of(const std::filesystem::path& output) {
@@ -137,8 +134,7 @@ Status reconstruct(ReconstructArguments arguments) {
   arguments.options.processes = session->processes();
   const KeptParts checkpoint = checkpoint_of(arguments.output);
   arguments.options.checkpoint = checkpoint.folder();
-  arguments.options.is_interrupted = &is_interrupted;
-  for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { is_interrupted = true; });
+  arguments.options.is_interrupted = &interruption();
   const Result<trees::Reconstruction> made = trees::reconstruct(*views, arguments.options);
   if (!made) return made.errors();
   if (arguments.options.processes.rank != 0) return Done{};  // all have the same cells

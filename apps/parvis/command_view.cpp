@@ -6,7 +6,7 @@
 namespace parvis {
 namespace {
 
-struct Arguments : SceneArguments {
+struct ViewArguments : SceneArguments {
   viewer::WindowOptions window;
   std::string rate;  ///< of --fps; empty: not given
 };
@@ -30,7 +30,7 @@ Status read_rate(const std::string& rate, viewer::WindowOptions& window) {
   return Done{};
 }
 
-Status view(Arguments& arguments) {
+Status view(ViewArguments& arguments) {
   viewer::WindowOptions& window = arguments.window;
   if (Status status = arguments.read_size(window.width, window.height); !status) return status;
   if (Status status = arguments.expect_one_scenario(); !status) return status;
@@ -52,7 +52,7 @@ Status view(Arguments& arguments) {
 
 void add_view(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("view", "Opens a window: walk, fly, follow a vehicle");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ViewArguments>();
   arguments->add_scene(*command);
   arguments->add_camera(*command);
   arguments->add_picture(*command);

@@ -8,12 +8,12 @@
 namespace parvis {
 namespace {
 
-struct Arguments {
+struct FacadeExportArguments {
   std::filesystem::path folder, output;
   int texture_side = 4096;
 };
 
-Status write_place(const Arguments& arguments) {
+Status write_place(const FacadeExportArguments& arguments) {
   const std::filesystem::path packed = arguments.folder / "place.facade";
   std::error_code code;
   if (!std::filesystem::exists(packed, code))
@@ -33,7 +33,7 @@ Status write_place(const Arguments& arguments) {
 }  // namespace
 
 void add_facade_export(CLI::App& stage, Chosen& chosen) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<FacadeExportArguments>();
   stage.add_option("folder", arguments->folder, "Folder of a packed place")
       ->required()
       ->check(CLI::ExistingDirectory);

@@ -10,13 +10,13 @@
 namespace parvis {
 namespace {
 
-struct Arguments {
+struct FacadeModelArguments {
   std::filesystem::path folder, output, scan;
   facades::ModelSettings settings;
   bool overwrites = false;
 };
 
-Status propose(const Arguments& arguments) {
+Status propose_model(const FacadeModelArguments& arguments) {
   const std::filesystem::path file =
       arguments.output.empty() ? arguments.folder / "model.glb" : arguments.output;
   std::error_code code;
@@ -48,7 +48,7 @@ Status propose(const Arguments& arguments) {
 }  // namespace
 
 void add_facade_model(CLI::App& stage, Chosen& chosen) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<FacadeModelArguments>();
   stage.add_option("folder", arguments->folder, "Folder of calibrated photographs")
       ->required()
       ->check(CLI::ExistingDirectory);
@@ -67,7 +67,7 @@ void add_facade_model(CLI::App& stage, Chosen& chosen) {
                    "glTF file (.glb) to write; FOLDER/model.glb where it is not given");
   stage.add_flag("--overwrite", arguments->overwrites, "Replace a model that is there");
   stage.footer("Example: parvis facade model courtyard --hints corrections.txt --overwrite");
-  stage.callback([arguments, &chosen] { chosen = [arguments] { return propose(*arguments); }; });
+  stage.callback([arguments, &chosen] { chosen = [arguments] { return propose_model(*arguments); }; });
 }
 
 }  // namespace parvis

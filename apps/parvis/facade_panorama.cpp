@@ -11,14 +11,14 @@
 namespace parvis {
 namespace {
 
-struct Arguments {
+struct FacadePanoramaArguments {
   std::filesystem::path panorama, folder;
   std::vector<double> position{0.0, 0.0, 0.0};
   double heading_deg = 0.0;
 };
 
 /// Writes the faces, and adds them to the photographs that the folder holds: a place has several panoramas.
-Status add_panorama(const Arguments& arguments) {
+Status add_panorama(const FacadePanoramaArguments& arguments) {
   for (const char* name : {"faces", "masks"})
     if (const Result<std::filesystem::path> inside = path_inside(arguments.folder, name); !inside)
       return inside.errors();
@@ -54,7 +54,7 @@ Status add_panorama(const Arguments& arguments) {
 }  // namespace
 
 void add_facade_panorama(CLI::App& stage, Chosen& chosen) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<FacadePanoramaArguments>();
   stage
       .add_option(
           "panorama", arguments->panorama,

@@ -10,13 +10,13 @@
 namespace parvis {
 namespace {
 
-struct Arguments {
+struct FacadeWalkArguments {
   CalibrationArguments calibration;
   PlaceArguments place;
   std::filesystem::path scan;
 };
 
-Status walk(Arguments& arguments) {
+Status walk(FacadeWalkArguments& arguments) {
   const std::filesystem::path folder = arguments.place.folder = arguments.calibration.job.folder;
   const std::filesystem::path file = folder / "model.glb";
   std::error_code code;
@@ -41,7 +41,7 @@ Status walk(Arguments& arguments) {
 }  // namespace
 
 void add_facade_walk(CLI::App& stage, Chosen& chosen) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<FacadeWalkArguments>();
   arguments->calibration.add(stage);
   arguments->place.add_choices(stage);
   stage.add_option("--scan", arguments->scan, scan_help)->check(CLI::ExistingFile)->excludes("--model");

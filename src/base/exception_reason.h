@@ -1,6 +1,8 @@
-// What a library's exception says, in words for users.
+// Reasons of failures in words for users: of a library's exception, and of a system call.
 #pragma once
 
+#include <cerrno>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <stdexcept>
@@ -17,5 +19,8 @@ inline std::string reason_of(const std::exception& problem) {
   if (dynamic_cast<const std::logic_error*>(&problem)) return "it is damaged";
   return problem.what();
 }
+
+/// The reason of the system call that has just failed (errno).
+inline std::string system_reason() { return std::strerror(errno); }
 
 }  // namespace parvis

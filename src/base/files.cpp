@@ -6,6 +6,7 @@
 
 #include <cstring>
 
+#include "base/exception_reason.h"
 #include "base/file_front.h"
 #include "base/memory_budget.h"
 #include "base/partial_file.h"
@@ -35,8 +36,6 @@ class OpenFile {
   int descriptor_;
 };
 
-std::string reason() { return std::strerror(errno); }
-
 /// Appends up to `count` bytes; false if reading fails.
 bool read_some(int file, std::string& text, std::size_t count) {
   const std::size_t before = text.size();
@@ -54,7 +53,7 @@ namespace {
 
 /// Whether the file is open, and a regular one.
 Status check_opened(const OpenFile& opened, const fs::path& file, struct stat& status) {
-  if (!opened) return error("{}: cannot be opened for reading ({})", file.string(), reason());
+  if (!opened) return error("{}: cannot be opened for reading ({})", file.string(), system_reason());
   if (fstat(opened.get(), &status) != 0 || !S_ISREG(status.st_mode))
     return error("{}: is not a regular file; expected one, no folder, pipe or device", file.string());
   return Done{};
@@ -73,7 +72,7 @@ Result<std::string> read_front(const fs::path& file, std::size_t count) {
   for (std::size_t before = std::size_t(-1); before != text.size() && text.size() < count;) {
     before = text.size();
     if (!read_some(opened.get(), text, count - before))
-      return error("{}: cannot be read ({})", file.string(), reason());
+      return error("{}: cannot be read ({})", file.string(), system_reason());
   }
   return text;
 }
@@ -99,7 +98,7 @@ Result<std::string> read_file(const fs::path& file, std::uint64_t max_bytes) {
         std::max(std::size_t(status.st_size) + 1 - std::min(before, std::size_t(status.st_size)), piece);
     if (!read_some(opened.get(), text,
                    std::size_t(std::min<std::uint64_t>(left, before == 0 ? expected : piece))))
-      return error("{}: cannot be read ({})", file.string(), reason());
+      return error("{}: cannot be read ({})", file.string(), system_reason());
     if (text.size() > max_bytes) return too_large;
   }
   return text;

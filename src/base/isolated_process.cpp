@@ -156,7 +156,7 @@ double seconds_of_inner_work(double limit_s) {
 }
 
 bool note(Outcome outcome) {
-  return write(status_of_worker, &outcome, sizeof outcome) == ssize_t(sizeof outcome);
+  return ::write(status_of_worker, &outcome, sizeof outcome) == ssize_t(sizeof outcome);
 }
 
 [[noreturn]] void be_worker(const Request& request, const Descriptors& descriptors) {
@@ -164,7 +164,7 @@ bool note(Outcome outcome) {
   is_worker = true, isolates_inner_work = request.isolates_inner_work, status_of_worker = descriptors[2];
   end_of_worker = deadline_after(request.seconds);
   const Started started{getpid()};
-  if (write(descriptors[2], &started, sizeof started) != ssize_t(sizeof started)) _exit(1);
+  if (::write(descriptors[2], &started, sizeof started) != ssize_t(sizeof started)) _exit(1);
   std::atexit([] { _exit(1); });  // a reader that calls exit must not run into the program's destructors
   limit_time(request.seconds);    // the caller watches the clock
 
@@ -277,7 +277,7 @@ Descriptor memory_file(const char* name) { return Descriptor(memfd_create(name, 
 
 bool write_all(int file, std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = write(file, bytes.data(), bytes.size());
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) return false;
     bytes.remove_prefix(std::size_t(written));

@@ -18,15 +18,15 @@
 #include <random>
 #include <utility>
 
+#include "base/exception_reason.h"
+
 namespace parvis {
 namespace {
 namespace fs = std::filesystem;
 
-std::string reason() { return std::strerror(errno); }
-
 Error cannot_write(const fs::path& file) {
   return error("{}: cannot be written ({}); is the folder writable and the disk not full?", file.string(),
-               reason());
+               system_reason());
 }
 
 /// The signals after which the program still removes what it was writing.

@@ -1,9 +1,8 @@
 // Progress of long work: a bar with an estimate on a terminal, plain lines elsewhere, on standard error.
 #pragma once
 
-#include <atomic>
-#include <chrono>
-#include <mutex>
+#include <cstddef>
+#include <memory>
 #include <string>
 
 namespace parvis {
@@ -20,14 +19,8 @@ class Progress {
   void advance(std::size_t steps = 1);
 
  private:
-  void print(std::size_t done);
-
-  std::string what_;
-  std::size_t total_;
-  std::atomic<std::size_t> done_{0};
-  std::chrono::steady_clock::time_point start_, last_print_;
-  std::mutex mutex_;
-  bool is_terminal_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace parvis

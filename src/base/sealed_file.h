@@ -51,6 +51,11 @@ void append_values(std::string& bytes, const std::vector<T>& values) {
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
+/// Appends a text with its length.
+inline void append_text(std::string& bytes, std::string_view text) {
+  append_values(bytes, std::vector<char>(text.begin(), text.end()));
+}
+
 /// Reads values from the front of a byte string. Reading beyond the end yields zeros and sets
 /// `has_ended_early`.
 class Taker {
@@ -74,6 +79,11 @@ class Taker {
     std::vector<T> values(part.size() / sizeof(T));
     std::copy(part.begin(), part.end(), reinterpret_cast<char*>(values.data()));
     return values;
+  }
+  /// The next text, as `append_text` has written it; empty beyond the end.
+  std::string take_text() {
+    const std::vector<char> text = take_values<char>();
+    return {text.begin(), text.end()};
   }
   /// The next `size` bytes; none of them, as beyond the end, where there are fewer or `size` is none.
   std::string_view take_bytes(std::optional<std::uint64_t> size);

@@ -18,7 +18,7 @@ namespace parvis::house {
 namespace {
 
 constexpr int width = 96, height = 72;
-constexpr int frames = 4;  // some methods draw a part of their maps in each
+constexpr int frames_per_method = 4;  // some methods draw a part of their maps in each
 constexpr glm::vec3 mirror_at{2.5f, 0.0f, 1.6f};
 
 /// A street in white sun and without a sky, whose western wall is red and in its own shadow: all that is red
@@ -59,7 +59,7 @@ Shown red_in_the_mirror(const std::string& method, bool is_bounced) {
   Camera camera;
   camera.world_from_camera = look_at({-3.5f, -3.0f, 1.8f}, mirror_at);
   const render::EyeView eye{camera, width, height};
-  for (int frame = 0; frame < frames; ++frame)
+  for (int frame = 0; frame < frames_per_method; ++frame)
     EXPECT_TRUE(methods::draw_frame(**renderer, scene, reflections->get(), eye));
   const ImageF drawn = (*renderer)->read_radiance();
   const reference::TracedPicture traced = methods::trace_frame(**renderer, scene, eye);

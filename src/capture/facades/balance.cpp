@@ -19,7 +19,7 @@ constexpr int balance_rounds = 12;
 /// surely are not.
 constexpr float same_colour = 0.06f, other_colour = 0.14f;
 
-constexpr std::size_t min_witnesses = 3;
+constexpr std::size_t min_colour_witnesses = 3;
 /// Pixels per side of the blocks that occluders are found in: colours are means of 5 x 5 pixels already, and
 /// time grows with the square of the photographs' number.
 constexpr int trust_block = 2;
@@ -74,7 +74,7 @@ float trust_in(glm::vec3 own, const Sightings& all, std::uint32_t photo) {
   std::array<std::vector<float>, 3> others;
   for (const Sighting& s : all)
     for (std::size_t c = 0; c < 3 && s.photo != photo; ++c) others[c].push_back(s.srgb[int(c)]);
-  if (others[0].size() < min_witnesses) return 1.0f;
+  if (others[0].size() < min_colour_witnesses) return 1.0f;
   float spread = 0.0f, difference = 0.0f;
   for (std::size_t c = 0; c < 3; ++c) {
     std::ranges::sort(others[c]);

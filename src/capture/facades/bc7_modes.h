@@ -35,6 +35,9 @@ struct Coded {
   float error = 0.0f;
 };
 
+/// Rounds in which a line's endpoints are fitted again to the steps that its texels have chosen.
+inline constexpr int refinements = 2;
+
 /// Mode 6: one line of 16 colours with alpha.
 Coded one_line(const BlockTexels& texels);
 /// Of a block of mode 6.

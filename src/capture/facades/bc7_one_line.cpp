@@ -7,8 +7,7 @@
 namespace parvis::facades::bc7 {
 namespace {
 
-constexpr std::array<int, 16> weights{0, 4, 9, 13, 17, 21, 26, 30, 34, 38, 43, 47, 51, 55, 60, 64};
-constexpr int refinements = 2;
+constexpr std::array<int, 16> weights_of_16{0, 4, 9, 13, 17, 21, 26, 30, 34, 38, 43, 47, 51, 55, 60, 64};
 
 /// An endpoint: 7 bits per channel and one lowest bit that all channels share.
 struct Endpoint {
@@ -22,10 +21,10 @@ Endpoint rounded(const glm::vec4& colour, int low) {
 }
 
 glm::ivec4 at_step(const glm::ivec4& a, const glm::ivec4& b, int step) {
-  return between(a, b, weights[std::size_t(step)]);
+  return between(a, b, weights_of_16[std::size_t(step)]);
 }
 
-using Texels = std::array<glm::vec4, 16>;
+using RgbaTexels = std::array<glm::vec4, 16>;
 using Steps = std::array<int, 16>;
 
 struct Candidate {
@@ -35,7 +34,7 @@ struct Candidate {
 };
 
 /// Each texel's nearest step between two endpoints.
-Candidate with_steps(const Texels& texels, const Endpoint& a, const Endpoint& b) {
+Candidate with_steps(const RgbaTexels& texels, const Endpoint& a, const Endpoint& b) {
   Candidate result{a, b, {}, 0.0f};
   const glm::vec4 from(a.value()), along = glm::vec4(b.value()) - from;
   const float length2 = std::max(glm::dot(along, along), 1e-6f);
@@ -53,7 +52,7 @@ Candidate with_steps(const Texels& texels, const Endpoint& a, const Endpoint& b)
 }
 
 /// The best of the four choices of lowest bits.
-Candidate best_of(const Texels& texels, const glm::vec4& a, const glm::vec4& b) {
+Candidate best_of(const RgbaTexels& texels, const glm::vec4& a, const glm::vec4& b) {
   Candidate best;
   best.error = std::numeric_limits<float>::max();
   for (int low = 0; low < 4; ++low)
@@ -64,7 +63,7 @@ Candidate best_of(const Texels& texels, const glm::vec4& a, const glm::vec4& b) 
 }
 
 /// Ends of the texels along their principal axis, by power iteration.
-void principal_ends(const Texels& texels, glm::vec4& a, glm::vec4& b) {
+void principal_ends(const RgbaTexels& texels, glm::vec4& a, glm::vec4& b) {
   glm::vec4 mean(0.0f), low = texels[0], high = texels[0];
   for (const glm::vec4& texel : texels)
     mean += texel / 16.0f, low = glm::min(low, texel), high = glm::max(high, texel);
@@ -91,11 +90,11 @@ void principal_ends(const Texels& texels, glm::vec4& a, glm::vec4& b) {
 }
 
 /// The endpoints that fit best once each texel's step is chosen.
-void refit(const Texels& texels, const Steps& steps, glm::vec4& a, glm::vec4& b) {
+void refit(const RgbaTexels& texels, const Steps& steps, glm::vec4& a, glm::vec4& b) {
   float aa = 0.0f, ab = 0.0f, bb = 0.0f;
   glm::vec4 sum_a(0.0f), sum_b(0.0f);
   for (std::size_t i = 0; i < 16; ++i) {
-    const float t = float(weights[std::size_t(steps[i])]) / 64.0f;
+    const float t = float(weights_of_16[std::size_t(steps[i])]) / 64.0f;
     aa += (1 - t) * (1 - t), ab += t * (1 - t), bb += t * t;
     sum_a += (1 - t) * texels[i], sum_b += t * texels[i];
   }
@@ -122,7 +121,7 @@ Bc7Block written(Candidate block) {
 }  // namespace
 
 Coded one_line(const BlockTexels& bytes) {
-  Texels texels;
+  RgbaTexels texels;
   for (std::size_t i = 0; i < 16; ++i)
     texels[i] = {bytes[4 * i], bytes[4 * i + 1], bytes[4 * i + 2], bytes[4 * i + 3]};
   glm::vec4 a, b;

@@ -10,8 +10,7 @@
 namespace parvis::facades::bc7 {
 namespace {
 
-constexpr std::array<int, 8> weights{0, 9, 18, 27, 37, 46, 55, 64};
-constexpr int refinements = 2;
+constexpr std::array<int, 8> weights_of_8{0, 9, 18, 27, 37, 46, 55, 64};
 constexpr std::size_t tried_patterns = 4;
 
 /// The format's patterns for two parts: bit i is 1 where texel i belongs to the second.
@@ -28,7 +27,7 @@ constexpr std::array<std::uint8_t, 64> anchors{
     8,  15, 2,  8,  2,  2,  8,  8,  2,  2,  15, 15, 6,  8,  2,  8,  15, 15, 2, 8, 2, 2,
     2,  15, 15, 6,  6,  2,  6,  8,  15, 15, 2,  2,  15, 15, 15, 15, 15, 2,  2, 15};
 
-using Texels = std::array<glm::vec3, 16>;
+using RgbTexels = std::array<glm::vec3, 16>;
 
 std::size_t part_of(std::size_t pattern, std::size_t texel) { return patterns[pattern] >> texel & 1u; }
 
@@ -63,7 +62,7 @@ float off_line(const Spread& spread) {
                   0.0f);
 }
 
-std::array<std::size_t, tried_patterns> best_patterns(const Texels& texels) {
+std::array<std::size_t, tried_patterns> best_patterns(const RgbTexels& texels) {
   Spread all;
   for (const glm::vec3& texel : texels) all.add(texel);
   std::array<std::pair<float, std::size_t>, 64> order;
@@ -97,11 +96,11 @@ struct Part {
   float error = std::numeric_limits<float>::max();
 };
 
-Part with_steps(const Texels& texels, std::size_t pattern, std::size_t which, const Ends& ends) {
+Part with_steps(const RgbTexels& texels, std::size_t pattern, std::size_t which, const Ends& ends) {
   Part part{ends, {}, 0.0f};
   const glm::ivec4 from = ends.colour(ends.a), to = ends.colour(ends.b);
   std::array<glm::vec3, 8> colours;
-  for (std::size_t k = 0; k < 8; ++k) colours[k] = glm::vec3(between(from, to, weights[k]));
+  for (std::size_t k = 0; k < 8; ++k) colours[k] = glm::vec3(between(from, to, weights_of_8[k]));
   for (std::size_t i = 0; i < 16; ++i) {
     if (part_of(pattern, i) != which) continue;
     float minimum = std::numeric_limits<float>::max();
@@ -114,7 +113,7 @@ Part with_steps(const Texels& texels, std::size_t pattern, std::size_t which, co
   return part;
 }
 
-Part best_of(const Texels& texels, std::size_t pattern, std::size_t which, glm::vec3 a, glm::vec3 b) {
+Part best_of(const RgbTexels& texels, std::size_t pattern, std::size_t which, glm::vec3 a, glm::vec3 b) {
   Part best;
   for (int low = 0; low < 2; ++low) {
     const auto rounded = [&](glm::vec3 colour) {
@@ -127,13 +126,13 @@ Part best_of(const Texels& texels, std::size_t pattern, std::size_t which, glm::
 }
 
 /// The ends that fit best once each texel's step is chosen (least squares).
-void refit(const Texels& texels, std::size_t pattern, std::size_t which, const Part& part, glm::vec3& a,
+void refit(const RgbTexels& texels, std::size_t pattern, std::size_t which, const Part& part, glm::vec3& a,
            glm::vec3& b) {
   float aa = 0.0f, ab = 0.0f, bb = 0.0f;
   glm::vec3 sum_a(0.0f), sum_b(0.0f);
   for (std::size_t i = 0; i < 16; ++i) {
     if (part_of(pattern, i) != which) continue;
-    const float t = float(weights[std::size_t(part.steps[i])]) / 64.0f;
+    const float t = float(weights_of_8[std::size_t(part.steps[i])]) / 64.0f;
     aa += (1 - t) * (1 - t), ab += t * (1 - t), bb += t * t;
     sum_a += (1 - t) * texels[i], sum_b += t * texels[i];
   }
@@ -143,7 +142,7 @@ void refit(const Texels& texels, std::size_t pattern, std::size_t which, const P
   b = glm::clamp((aa * sum_b - ab * sum_a) / determinant, 0.0f, 255.0f);
 }
 
-Part coded_part(const Texels& texels, std::size_t pattern, std::size_t which) {
+Part coded_part(const RgbTexels& texels, std::size_t pattern, std::size_t which) {
   Spread spread;
   for (std::size_t i = 0; i < 16; ++i)
     if (part_of(pattern, i) == which) spread.add(texels[i]);
@@ -188,7 +187,7 @@ Bc7Block written(std::size_t pattern, std::array<Part, 2> parts) {
 }  // namespace
 
 Coded two_lines(const BlockTexels& bytes) {
-  Texels texels;
+  RgbTexels texels;
   for (std::size_t i = 0; i < 16; ++i) texels[i] = {bytes[4 * i], bytes[4 * i + 1], bytes[4 * i + 2]};
   Coded best{{}, std::numeric_limits<float>::max()};
   for (const std::size_t pattern : best_patterns(texels)) {
@@ -210,7 +209,8 @@ BlockTexels texels_of_two_lines(const Bc7Block& block) {
   for (std::size_t i = 0; i < 16; ++i) {
     const Ends& part = ends[part_of(pattern, i)];
     const int step = int(bits.take(i == 0 || i == anchors[pattern] ? 2 : 3));
-    const glm::ivec4 colour = between(part.colour(part.a), part.colour(part.b), weights[std::size_t(step)]);
+    const glm::ivec4 colour =
+        between(part.colour(part.a), part.colour(part.b), weights_of_8[std::size_t(step)]);
     for (int c = 0; c < 4; ++c) texels[4 * i + std::size_t(c)] = std::uint8_t(colour[c]);
   }
   return texels;

@@ -15,10 +15,10 @@ using photographs::PhotographSet;
 
 // All lengths are shares of the median viewing distance.
 constexpr double plane_tolerance = 0.0075;
-constexpr double max_gap = 0.15;         // between points of one wall
-constexpr double max_corner_gap = 0.25;  // between a wall's last point and the wall that it ends at
-constexpr double max_seat_gap = 0.1;     // between a wall's top and the roof above it
-constexpr double outer_quantile = 0.01;  // of points that do not count for extents
+constexpr double max_gap = 0.15;          // between points of one wall
+constexpr double max_corner_gap = 0.25;   // between a wall's last point and the wall that it ends at
+constexpr double max_seat_gap = 0.1;      // between a wall's top and the roof above it
+constexpr double extent_quantile = 0.01;  // of points that do not count for extents
 constexpr std::size_t min_points_of_piece = 25;
 constexpr double max_looked_through = 0.4;  // share of the rays that reach a surface and do not end there
 constexpr double min_extent = 0.1;
@@ -31,7 +31,7 @@ struct Range {
 Range quantiles(std::vector<double> values) {
   std::ranges::sort(values);
   const auto at = [&](double q) { return values[std::size_t(std::lround(q * double(values.size() - 1)))]; };
-  return {at(outer_quantile), at(1.0 - outer_quantile)};
+  return {at(extent_quantile), at(1.0 - extent_quantile)};
 }
 
 /// A rectangle in a plane: axis u lies level, v rises.
@@ -45,7 +45,7 @@ struct Piece {
 };
 
 /// Everything that the stages share.
-struct Place {
+struct Photographed {
   const PhotographSet& set;
   const std::vector<OrientedPoint>& points;
   glm::dvec3 up;
@@ -53,7 +53,7 @@ struct Place {
 };
 
 /// The rectangle around points of a plane.
-Piece piece_of(const FoundPlane& plane, std::vector<std::size_t> members, const Place& place) {
+Piece piece_of(const FoundPlane& plane, std::vector<std::size_t> members, const Photographed& place) {
   Piece piece;
   piece.plane = &plane;
   piece.u = glm::normalize(glm::cross(place.up, plane.normal));
@@ -73,7 +73,7 @@ Piece piece_of(const FoundPlane& plane, std::vector<std::size_t> members, const 
 /// plane of a piece, well before its end. From behind as well: who stands behind a wall sees nothing of what
 /// is before it.
 template <class Visit>
-void for_rays_through(const Piece& piece, const Place& place, Visit&& visit) {
+void for_rays_through(const Piece& piece, const Photographed& place, Visit&& visit) {
   const double margin = 4.0 * plane_tolerance * place.scale;
   const auto height_of = [&](glm::dvec3 p) { return glm::dot(piece.plane->normal, p) - piece.plane->offset; };
   for (const photographs::SparsePoint& point : place.set.points) {
@@ -104,7 +104,7 @@ int cell_of(double value, Range range, int count) {
   return int(std::clamp((value - range.low) / range.length() * count, 0.0, double(count - 1)));
 }
 
-Evidence evidence_of(const Piece& piece, const Place& place) {
+Evidence evidence_of(const Piece& piece, const Photographed& place) {
   const double cell = 0.2 * max_gap * place.scale;
   Evidence evidence;
   evidence.columns = int(std::clamp(piece.along.length() / cell, 1.0, 160.0));
@@ -151,7 +151,7 @@ CellRectangle largest_sum(Evidence& evidence) {
 }
 
 /// The rectangles in a piece where more rays end than pass, the strongest first. They do not overlap.
-std::vector<Piece> closed_parts(const Piece& piece, const Place& place) {
+std::vector<Piece> closed_parts(const Piece& piece, const Photographed& place) {
   constexpr int max_parts = 6;
   constexpr double taken = -1e9;
   std::vector<Piece> parts;
@@ -175,7 +175,7 @@ std::vector<Piece> closed_parts(const Piece& piece, const Place& place) {
 
 /// Points of a plane divided where they leave gaps along `u`, then the parts of each that photographs do not
 /// look through.
-std::vector<Piece> pieces_of(const FoundPlane& plane, const Place& place) {
+std::vector<Piece> pieces_of(const FoundPlane& plane, const Photographed& place) {
   const glm::dvec3 u = glm::normalize(glm::cross(place.up, plane.normal));
   std::vector<std::size_t> order = plane.inliers, members;
   std::ranges::sort(order, {}, [&](std::size_t i) { return glm::dot(place.points[i].position, u); });
@@ -204,14 +204,14 @@ double ground_height(const Piece& wall, double s, const FoundPlane& ground) {
 }
 
 /// Rays through a rectangle of a piece's plane.
-double rays_through(Piece piece, Range along, Range across, const Place& place) {
+double rays_through(Piece piece, Range along, Range across, const Photographed& place) {
   piece.across = across;
   double through = 0.0;
   for_rays_through(piece, place, [&](double s, double) { through += s > along.low && s < along.high; });
   return through;
 }
 
-double rays_ended(const Piece& piece, const Place& place) {
+double rays_ended(const Piece& piece, const Photographed& place) {
   double ended = 0.0;
   for (const std::size_t i : piece.inliers) ended += place.points[i].views;
   return ended;
@@ -223,7 +223,7 @@ bool is_looked_through(double through, double ended) {
 
 /// Do photographs look through a rectangle that a wall would be continued over? Rays through it are compared
 /// with those that end on as large a part of the wall: a rich wall says nothing about the gap beside it.
-bool is_open(const Piece& wall, Range along, Range across, const Place& place) {
+bool is_open(const Piece& wall, Range along, Range across, const Photographed& place) {
   const double area = wall.along.length() * wall.across.length();
   const double through = rays_through(wall, along, across, place);
   if (!(through > 0.0) || !(area > 0.0)) return false;
@@ -232,7 +232,7 @@ bool is_open(const Piece& wall, Range along, Range across, const Place& place) {
 
 /// Walls stand on the ground, or on the part of the same wall below them, unless photographs look through
 /// below.
-void stand_on_ground(std::vector<Piece>& walls, const FoundPlane& ground, const Place& place) {
+void stand_on_ground(std::vector<Piece>& walls, const FoundPlane& ground, const Photographed& place) {
   for (Piece& wall : walls) {
     double foot = ground_height(wall, 0.5 * (wall.along.low + wall.along.high), ground);
     for (const Piece& other : walls) {
@@ -248,7 +248,7 @@ void stand_on_ground(std::vector<Piece>& walls, const FoundPlane& ground, const 
 
 /// Lets each end of a wall reach the nearest wall that crosses its line close by, unless photographs look
 /// through between them.
-void join_corners(std::vector<Piece>& walls, const Place& place) {
+void join_corners(std::vector<Piece>& walls, const Photographed& place) {
   const double reach = max_corner_gap * place.scale;
   std::vector<Range> joined;
   for (const Piece& wall : walls) {
@@ -286,7 +286,7 @@ std::optional<double> crossing(const Piece& roof, const Piece& wall) {
 }
 
 /// Roofs do not come out of the walls below them; a wall ends where a roof crosses it near its top.
-void seat_roofs(std::vector<Piece>& roofs, std::vector<Piece>& walls, const Place& place) {
+void seat_roofs(std::vector<Piece>& roofs, std::vector<Piece>& walls, const Photographed& place) {
   const double reach = max_seat_gap * place.scale;
   for (Piece& roof : roofs)
     for (Piece& wall : walls) {
@@ -301,7 +301,7 @@ void seat_roofs(std::vector<Piece>& roofs, std::vector<Piece>& walls, const Plac
 
 /// Takes out surfaces that photographs look through, and slivers: scattered points that happen to lie in a
 /// plane.
-void leave_out_what_is_no_surface(std::vector<Piece>& pieces, const Place& place, Errors& notes) {
+void leave_out_what_is_no_surface(std::vector<Piece>& pieces, const Photographed& place, Errors& notes) {
   std::erase_if(pieces, [&](const Piece& piece) {
     if (std::min(piece.along.length(), piece.across.length()) < min_extent * place.scale) return true;
     const double through = rays_through(piece, piece.along, piece.across, place),
@@ -316,7 +316,7 @@ void leave_out_what_is_no_surface(std::vector<Piece>& pieces, const Place& place
 }
 
 /// A level plane below nearly all points, for places whose ground shows no points.
-FoundPlane assumed_ground(const Place& place) {
+FoundPlane assumed_ground(const Photographed& place) {
   std::vector<double> heights;
   heights.reserve(place.points.size());
   for (const OrientedPoint& point : place.points) heights.push_back(glm::dot(point.position, place.up));
@@ -364,7 +364,8 @@ std::vector<glm::dvec2> apart(const std::vector<glm::dvec2>& polygon, double tol
 }
 
 /// The ground below everything: cameras, feet of walls, its own points.
-CoarseSurface ground_surface(const FoundPlane& ground, const std::vector<Piece>& walls, const Place& place) {
+CoarseSurface ground_surface(const FoundPlane& ground, const std::vector<Piece>& walls,
+                             const Photographed& place) {
   const glm::dvec3 east = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), ground.normal));
   const glm::dvec3 north = glm::cross(ground.normal, east), origin = ground.offset * ground.normal;
   const auto in_plane = [&](glm::dvec3 p) {
@@ -409,8 +410,9 @@ Result<CoarseModel> propose_coarse_model(const PhotographSet& set) {
   if (points.size() < min_points_of_piece)
     return error("the photographs have {} points in common; parvis facade calibrate finds more",
                  points.size());
-  const Place place{set, points, photographs::up_of_place(set, points).value_or(glm::dvec3(0.0, 0.0, 1.0)),
-                    photographs::viewing_distance(set)};
+  const Photographed place{set, points,
+                           photographs::up_of_place(set, points).value_or(glm::dvec3(0.0, 0.0, 1.0)),
+                           photographs::viewing_distance(set)};
   std::vector<glm::dvec3> cameras;
   cameras.reserve(set.photographs.size());
   for (const photographs::Photograph& photograph : set.photographs)

@@ -18,7 +18,6 @@ namespace {
 using render::Culling;
 using render::Extents;
 using render::Pass;
-using render::View;
 using render::ViewKind;
 
 /// Triangles of one surface, culled together.
@@ -79,7 +78,7 @@ struct ChosenForEye {
 constexpr float largest_zoom_step = 0.1f;
 
 /// Radians per pixel in the middle of a view.
-float pixel_angle_of(const View& view) {
+float pixel_angle_of(const render::View& view) {
   const glm::mat4& clip = view.clip_from_world;
   const float scale = glm::length(glm::vec3(clip[0][1], clip[1][1], clip[2][1]));
   return 2.0f / std::max(scale * float(view.height), 1e-6f);
@@ -164,7 +163,7 @@ class FacadeDrawable final : public render::Drawable {
 
   Extents extents() const override { return things_.extents(); }
 
-  void prepare(const View& view, const Culling& culling) override {
+  void prepare(const render::View& view, const Culling& culling) override {
     std::vector<DrawnRange>& list = list_of(view);
     list.clear();
     take_in_photographs(view);
@@ -188,7 +187,7 @@ class FacadeDrawable final : public render::Drawable {
     }
   }
 
-  void draw(const View& view, Pass pass) override {
+  void draw(const render::View& view, Pass pass) override {
     if (pass == Pass::cutout) draw_with(programs_.cutout, view, Drawn::all);
     if (pass != Pass::opaque) return;
     draw_with(programs_.chosen, view, Drawn::chosen);
@@ -207,7 +206,7 @@ class FacadeDrawable final : public render::Drawable {
   /// all pixels, or the rest.
   enum class Drawn : std::uint8_t { all, chosen, others };
 
-  void draw_with(const render::ViewPrograms& programs, const View& view, Drawn drawn) {
+  void draw_with(const render::ViewPrograms& programs, const render::View& view, Drawn drawn) {
     const gl::Program* program = nullptr;
     std::size_t bound = shown_.size();
     for (const DrawnRange& range : list_of(view)) {
@@ -251,7 +250,7 @@ class FacadeDrawable final : public render::Drawable {
 
   /// The photographs nearest to the viewer become resident. Other views (shadows, reflections) use what is
   /// there, unless nothing is.
-  void take_in_photographs(const View& view) {
+  void take_in_photographs(const render::View& view) {
     for (const auto& [file, loaded] : loaded_) {
       const bool is_empty = std::ranges::count(loaded->textures.resident(), 1) == 0;
       if (view.kind != ViewKind::main && !is_empty) continue;
@@ -263,12 +262,12 @@ class FacadeDrawable final : public render::Drawable {
     }
   }
 
-  std::optional<ChosenForEye>& chosen_for(std::size_t facade, const View& view) {
+  std::optional<ChosenForEye>& chosen_for(std::size_t facade, const render::View& view) {
     return chosen_[facade][view.kind == ViewKind::main ? 0 : 1];
   }
 
   /// Chooses the photographs for a view's eye, unless the eye has hardly moved. Shadows have no colour.
-  void choose(std::size_t facade, const View& view) {
+  void choose(std::size_t facade, const render::View& view) {
     const ShownFacade& shown = shown_[facade];
     std::optional<ChosenForEye>& chosen = chosen_for(facade, view);
     const glm::mat4 facade_from_world = glm::inverse(shown.world_from_facade);
@@ -304,7 +303,7 @@ class FacadeDrawable final : public render::Drawable {
     glDisable(GL_CULL_FACE);
   }
 
-  std::vector<DrawnRange>& list_of(const View& view) {
+  std::vector<DrawnRange>& list_of(const render::View& view) {
     return view.kind == ViewKind::main ? main_list_ : other_list_;
   }
 

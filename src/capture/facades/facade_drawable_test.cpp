@@ -20,7 +20,7 @@
 namespace parvis::facades {
 namespace {
 
-constexpr int width = 160, height = 120;
+constexpr int drawn_width = 160, drawn_height = 120;
 
 class FacadeDrawableTest : public gl::ContextTest {
  protected:
@@ -33,7 +33,7 @@ class FacadeDrawableTest : public gl::ContextTest {
     scene_.sky.picture = ImageF(16, 8, 3, 0.1f);
     drawables_.add(facades_kind());
     drawables_.furnish(scene_);
-    camera_.vertical_fov = 2.0f * std::atan(0.5f * float(height) / (0.5f * float(width)));
+    camera_.vertical_fov = 2.0f * std::atan(0.5f * float(drawn_height) / (0.5f * float(drawn_width)));
     look_from({0.4f, 0.5f, 0.2f});
   }
   void look_from(glm::vec3 eye) { camera_.world_from_camera = look_at(eye, eye + glm::vec3(0, 1, 0)); }
@@ -43,8 +43,8 @@ class FacadeDrawableTest : public gl::ContextTest {
     Result<std::unique_ptr<render::Renderer>> renderer =
         render::Renderer::create(scene_, drawables_, light::sun_and_sky);
     EXPECT_TRUE(renderer) << to_string(renderer.errors());
-    EXPECT_TRUE(render::draw_frame(**renderer, scene_, {camera_, width, height}));
-    picked_ = (*renderer)->pick(camera_, width, height, true);
+    EXPECT_TRUE(render::draw_frame(**renderer, scene_, {camera_, drawn_width, drawn_height}));
+    picked_ = (*renderer)->pick(camera_, drawn_width, drawn_height, true);
     return (*renderer)->read_radiance();
   }
   ImageF trace() const {
@@ -52,7 +52,7 @@ class FacadeDrawableTest : public gl::ContextTest {
     const shading::SkyLight sky = shading::make_sky_light(scene_.sky.picture, 1.0f, 0.0f);
     reference::TraceOptions options;
     options.samples_per_pixel = 4;
-    return reference::trace_picture(rays, scene_, sky, camera_, width, height, options).radiance;
+    return reference::trace_picture(rays, scene_, sky, camera_, drawn_width, drawn_height, options).radiance;
   }
   ImageF photograph() const {
     const reference::RayScene rays(scene_);
@@ -60,7 +60,8 @@ class FacadeDrawableTest : public gl::ContextTest {
     reference::PhotographOptions options;
     options.samples_per_pixel = 4;
     options.paths.bounces = 0;
-    return reference::take_photograph(rays, scene_, sky, camera_, width, height, options)->radiance;
+    return reference::take_photograph(rays, scene_, sky, camera_, drawn_width, drawn_height, options)
+        ->radiance;
   }
   static double psnr(const Image8& a, const Image8& b) {
     double sum = 0.0;
@@ -88,7 +89,7 @@ TEST_F(FacadeDrawableTest, ItsPictureIsWhatRaysSee) {
   place(placed_);
   const Image8 drawn = display(draw()), traced = display(trace());
   EXPECT_GT(psnr(drawn, traced), 33.0) << "edges of the near walls are sampled differently";
-  EXPECT_EQ(*picked_.at(width / 2, height / 2), 1u);
+  EXPECT_EQ(*picked_.at(drawn_width / 2, drawn_height / 2), 1u);
   scene_.data<scene::ItemsOf<PlacedFacade>>().items[0].brightness = 0.5f;
   EXPECT_LT(psnr(display(draw()), traced), 25.0) << "the control: half as bright";
 }
@@ -104,7 +105,7 @@ TEST_F(FacadeDrawableTest, TrianglesOfOneChoiceAreWhatRaysSee) {
   place(placed_);
   const Image8 drawn = display(draw());
   EXPECT_GT(psnr(drawn, display(trace())), 33.0) << "edges of the near walls are sampled differently";
-  EXPECT_EQ(*picked_.at(width / 2, height / 2), 1u);
+  EXPECT_EQ(*picked_.at(drawn_width / 2, drawn_height / 2), 1u);
   // The same where other things make it receive their shadows.
   scene::add(scene_, scene::model_of(scene::box({50, -50, 0}, {51, -49, 1}), scene::matt(glm::vec3(0.5f))));
   EXPECT_GT(psnr(display(draw()), drawn), 50.0);
@@ -199,7 +200,7 @@ TEST_F(FacadeDrawableTest, ItMayStandAnywhereAndBeHidden) {
   EXPECT_GT(psnr(display(draw()), before), 40.0);
   placed.is_visible = false;
   draw();
-  EXPECT_EQ(*picked_.at(width / 2, height / 2), 0u);
+  EXPECT_EQ(*picked_.at(drawn_width / 2, drawn_height / 2), 0u);
 }
 
 TEST_F(FacadeDrawableTest, BlocksAndDecodedTexelsShowTheSame) {
@@ -274,7 +275,7 @@ TEST_F(FacadeDrawableTest, AWalkStaysWithinItsMemory) {
       render::Renderer::create(scene_, drawables_, light::sun_and_sky);
   ASSERT_TRUE(renderer) << to_string(renderer.errors());
   const auto shown = [&] {
-    EXPECT_TRUE(render::draw_frame(**renderer, scene_, {camera_, width, height}));
+    EXPECT_TRUE(render::draw_frame(**renderer, scene_, {camera_, drawn_width, drawn_height}));
     return display((*renderer)->read_radiance());
   };
   EXPECT_GT(psnr(shown(), with_all), 50.0);

@@ -14,9 +14,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* extension = "PARVIS_layered_photographs";
-constexpr int version = 1;
-constexpr std::size_t max_photos = 4096;
+constexpr const char* layers_extension = "PARVIS_layered_photographs";
+constexpr int layers_version = 1;
 
 /// The lists of a facade that are views of the file, by their names there.
 template <class Facade, class Visit>
@@ -112,11 +111,11 @@ bool take(const scene::GltfOwnData& own, const char* name, std::vector<T>& list)
 
 Status write_facade_gltf(const std::filesystem::path& file, const PackedFacade& facade, int max_side) {
   if (Status status = check_facade(facade, file); !status) return status;
-  Json json{{"version", version}, {"surfaces", facade.surfaces}, {"photographs", Json::array()}};
+  Json json{{"version", layers_version}, {"surfaces", facade.surfaces}, {"photographs", Json::array()}};
   for (const PackedPhoto& photo : facade.photos) json["photographs"].push_back(json_of(photo));
   json["tile_inner"] = tile_inner, json["tile_border"] = tile_border, json["tile_levels"] = tile_levels;
   json["depth_cell"] = depth_cell;
-  scene::GltfOwnData own{extension, json.dump(-1, ' ', false, Json::error_handler_t::replace), {}};
+  scene::GltfOwnData own{layers_extension, json.dump(-1, ' ', false, Json::error_handler_t::replace), {}};
   visit_lists(facade, [&](const char* name, const auto& list) {
     own.views.emplace_back(
         name, std::string(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(list[0])));
@@ -126,31 +125,31 @@ Status write_facade_gltf(const std::filesystem::path& file, const PackedFacade& 
 }
 
 Result<PackedFacade> read_facade_gltf(const std::filesystem::path& file) {
-  const Result<scene::GltfOwnData> own = scene::read_gltf_own_data(file, extension);
+  const Result<scene::GltfOwnData> own = scene::read_gltf_own_data(file, layers_extension);
   if (!own) return own.errors();
   PackedFacade facade;
   try {
     const Json json = Json::parse(own->json);
-    if (json.at("version") != version || json.at("tile_inner") != tile_inner ||
+    if (json.at("version") != layers_version || json.at("tile_inner") != tile_inner ||
         json.at("tile_border") != tile_border || json.at("tile_levels") != tile_levels ||
         json.at("depth_cell") != depth_cell)
       return error("{}: its {} is of another version; export the place again (parvis facade export)",
-                   file.string(), extension);
+                   file.string(), layers_extension);
     facade.surfaces = json.at("surfaces").get<std::vector<std::string>>();
-    if (json.at("photographs").size() > max_photos)
+    if (json.at("photographs").size() > max_facade_photos)
       return error("{}: it names {} photographs; at most {} are read", file.string(),
-                   json.at("photographs").size(), max_photos);
+                   json.at("photographs").size(), max_facade_photos);
     for (const Json& photo : json.at("photographs")) facade.photos.push_back(photo_of(photo));
   } catch (const Json::exception& problem) {
-    return error("{}: its {} is not as it should be ({})", file.string(), extension,
+    return error("{}: its {} is not as it should be ({})", file.string(), layers_extension,
                  json_reason(problem.what()));
   } catch (const std::out_of_range& problem) {
-    return error("{}: its {} has another number of values in \"{}\" than expected", file.string(), extension,
-                 problem.what());
+    return error("{}: its {} has another number of values in \"{}\" than expected", file.string(),
+                 layers_extension, problem.what());
   }
   bool are_whole = true;
   visit_lists(facade, [&](const char* name, auto& list) { are_whole &= take(*own, name, list); });
-  if (!are_whole) return error("{}: a view of its {} is cut off", file.string(), extension);
+  if (!are_whole) return error("{}: a view of its {} is cut off", file.string(), layers_extension);
   if (Status status = check_facade(facade, file); !status) return status.errors();
   return facade;
 }

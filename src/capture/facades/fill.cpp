@@ -106,18 +106,6 @@ void fill_from_photographs(const LayersOfModel& layers, const std::vector<std::v
   }
 }
 
-/// A frame of a plane: two axes, upright where the plane is a wall.
-struct PlaneFrame {
-  glm::dvec3 origin, u, v;
-};
-PlaneFrame frame_of(const LayerTriangle& triangle) {
-  const auto& c = triangle.corners;
-  const glm::dvec3 normal = glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
-  const glm::dvec3 up = std::abs(normal.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 u = glm::normalize(glm::cross(up, normal));
-  return {c[0], u, glm::cross(normal, u)};
-}
-
 /// The pixels of one plane in one layer, rectified: a grid point for each, of the size of their mean
 /// footprint.
 struct RectifiedPlane {

@@ -48,14 +48,6 @@ bool take_runs(Taker& taker, std::vector<T>& values) {
   return at == values.size();
 }
 
-void append_text(std::string& bytes, const std::string& text) {
-  append_values(bytes, std::vector<char>(text.begin(), text.end()));
-}
-std::string take_text(Taker& taker) {
-  const std::vector<char> text = taker.take_values<char>();
-  return {text.begin(), text.end()};
-}
-
 void append_model(std::string& bytes, const LayerModel& model) {
   std::vector<std::array<glm::dvec3, 3>> corners;
   std::vector<glm::uvec3> numbers;
@@ -116,7 +108,7 @@ bool take_visibility(Taker& taker, const LayerModel& model, VisibilityLayers& vi
   }
   visibility.cuts = std::size_t(taker.take<std::uint64_t>());
   for (auto count = taker.take<std::uint32_t>(); count > 0 && !taker.has_ended_early(); --count)
-    visibility.warnings.push_back({take_text(taker), {}});
+    visibility.warnings.push_back({taker.take_text(), {}});
   return std::ranges::count(is_in_layer, char(0)) == 0;
 }
 
@@ -145,7 +137,7 @@ std::optional<std::vector<ImageF>> LayerKeeper::read_found(PlaceLayers& place) c
   Taker taker(*content);
   if (taker.take<std::uint32_t>() != place.names.size()) return std::nullopt;
   for (const std::string& name : place.names)
-    if (take_text(taker) != name) return std::nullopt;
+    if (taker.take_text() != name) return std::nullopt;
   LayerModel model = place.model;
   if (!take_triangles(taker, model)) return std::nullopt;
   std::vector<VisibilityLayers> visibility(place.names.size());

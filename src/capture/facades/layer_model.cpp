@@ -30,13 +30,13 @@ bool is_degenerate(const std::array<glm::dvec3, 3>& corners) {
 }
 
 /// The three positions in an order that does not depend on how the triangle runs.
-using Place = std::array<double, 9>;
-Place place_of(std::array<glm::dvec3, 3> corners) {
+using SortedCorners = std::array<double, 9>;
+SortedCorners sorted_corners(std::array<glm::dvec3, 3> corners) {
   const auto less = [](const glm::dvec3& a, const glm::dvec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
   };
   std::sort(corners.begin(), corners.end(), less);
-  Place place;
+  SortedCorners place;
   for (int k = 0; k < 9; ++k) place[std::size_t(k)] = corners[std::size_t(k / 3)][k % 3];
   return place;
 }
@@ -85,6 +85,14 @@ void assign_faces(LayerModel& model, std::size_t first, double size) {
 
 }  // namespace
 
+PlaneFrame frame_of(const LayerTriangle& triangle) {
+  const auto& c = triangle.corners;
+  const glm::dvec3 normal = glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
+  const glm::dvec3 up = std::abs(normal.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 u = glm::normalize(glm::cross(up, normal));
+  return {c[0], u, glm::cross(normal, u), normal};
+}
+
 double LayerModel::size() const {
   glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (const LayerTriangle& triangle : triangles)
@@ -101,7 +109,7 @@ Result<LayerModelResult> layer_model(const std::vector<NamedMesh>& meshes) {
     if (const Status sound = check(named.mesh, named.name); !sound) return sound.errors();
     bounds.add(named.mesh.bounds());
   }
-  std::map<Place, std::uint32_t> places;  // of the triangles so far: their object
+  std::map<SortedCorners, std::uint32_t> places;  // of the triangles so far: their object
   for (const NamedMesh& named : meshes) {
     const std::size_t first = model.triangles.size();
     const std::uint32_t object = std::uint32_t(model.objects.size());
@@ -115,7 +123,7 @@ Result<LayerModelResult> layer_model(const std::vector<NamedMesh>& meshes) {
         ++degenerate;
         continue;
       }
-      const auto [found, is_new] = places.try_emplace(place_of(triangle.corners), object);
+      const auto [found, is_new] = places.try_emplace(sorted_corners(triangle.corners), object);
       if (!is_new) {
         ++twice, other = found->second;
         continue;

@@ -34,6 +34,12 @@ struct LayerTriangle {
   std::uint32_t source = 0;           ///< the triangle before any cut; pieces of one triangle share it
 };
 
+/// Axes of a triangle's plane: `v` is upright where the plane is a wall, and u, v and `normal` right-handed.
+struct PlaneFrame {
+  glm::dvec3 origin, u, v, normal;
+};
+PlaneFrame frame_of(const LayerTriangle& triangle);
+
 /// A named object of the coarse model.
 struct LayerObject {
   std::string name;

@@ -10,9 +10,8 @@
 namespace parvis::facades {
 namespace {
 
-constexpr int step = 4;                   ///< pixels of the photograph per cell of the grid
-constexpr std::size_t min_witnesses = 3;  ///< the photograph itself among them
-constexpr float depth_tolerance = 0.01f;
+constexpr int grid_step = 4;                    ///< pixels of the photograph per cell of the grid
+constexpr std::size_t min_light_witnesses = 3;  ///< the photograph itself among them
 // Logarithms of ratios of light: noise and misregistration below the first, a shadow from the second on.
 constexpr float same_light = 0.2f, other_light = 0.4f;
 constexpr float max_log_gain = 2.0f;       ///< 7.4 times: clear sun over blue sky
@@ -26,13 +25,14 @@ glm::vec3 log_of(glm::vec3 linear) { return glm::log(glm::max(linear, glm::vec3(
 
 /// Logarithms of a photograph's colours, means of cells of step x step pixels.
 ImageF cells_of(const PreparedPhoto& photo) {
-  ImageF cells((photo.view.width + step - 1) / step, (photo.view.height + step - 1) / step, 3);
+  ImageF cells((photo.view.width + grid_step - 1) / grid_step,
+               (photo.view.height + grid_step - 1) / grid_step, 3);
   for (int y = 0; y < cells.height; ++y)
     for (int x = 0; x < cells.width; ++x) {
       glm::vec3 sum(0.0f);
       int count = 0;
-      for (int v = y * step; v < std::min((y + 1) * step, photo.view.height); ++v)
-        for (int u = x * step; u < std::min((x + 1) * step, photo.view.width); ++u, ++count) {
+      for (int v = y * grid_step; v < std::min((y + 1) * grid_step, photo.view.height); ++v)
+        for (int u = x * grid_step; u < std::min((x + 1) * grid_step, photo.view.width); ++u, ++count) {
           const float* p = photo.colours.at(u, v);
           sum += glm::vec3(p[0], p[1], p[2]);
         }
@@ -59,15 +59,16 @@ float log_gain(std::span<const PreparedPhoto> photos, std::span<const ImageF> ce
     const glm::dvec3 p = view.to_camera(point);
     if (p.z <= 0.0) continue;
     const glm::dvec2 pixel = view.to_pixel(p);
-    if (pixel.x < step || pixel.y < step || pixel.x > view.width - step || pixel.y > view.height - step)
+    if (pixel.x < grid_step || pixel.y < grid_step || pixel.x > view.width - grid_step ||
+        pixel.y > view.height - grid_step)
       continue;
     const std::size_t index = std::size_t(pixel.y) * std::size_t(view.width) + std::size_t(pixel.x);
     if (not_hidden(float(p.z), photos[i].depths[index], depth_tolerance) < 0.5f) continue;
     if (!photos[i].trust.empty() && photos[i].trust.pixels[index] < 0.5f) continue;
-    const glm::vec3 colour = sampled_rgb(cells[i], pixel / double(step));
+    const glm::vec3 colour = sampled_rgb(cells[i], pixel / double(grid_step));
     for (std::size_t c = 0; c < 3; ++c) seen[c].push_back(colour[int(c)]);
   }
-  if (seen[0].size() < min_witnesses) return 0.0f;
+  if (seen[0].size() < min_light_witnesses) return 0.0f;
   glm::vec3 gain;
   for (std::size_t c = 0; c < 3; ++c) gain[int(c)] = median(seen[c]) - own_colour[int(c)];
   const float least = std::min({gain.x, gain.y, gain.z}), most = std::max({gain.x, gain.y, gain.z});
@@ -133,7 +134,7 @@ ImageF guided(const PreparedPhoto& photo, const ImageF& guide, const ImageF& gai
     for (int x = 0; x < result.width; ++x) {
       const float* p = photo.colours.at(x, y);
       const glm::vec3 logs = log_of({p[0], p[1], p[2]});
-      const glm::dvec2 cell = glm::dvec2(x + 0.5, y + 0.5) / double(step);
+      const glm::dvec2 cell = glm::dvec2(x + 0.5, y + 0.5) / double(grid_step);
       const float gain =
           sampled(slope, cell, 0) * (logs.x + logs.y + logs.z) / 3.0f + sampled(offset, cell, 0);
       *result.at(x, y) = std::exp(std::clamp(gain, -max_log_gain, max_log_gain));
@@ -155,8 +156,8 @@ std::vector<ImageF> shadow_gains(std::span<const PreparedPhoto> photos) {
       for (int x = 0; x < gains.width; ++x) {
         const float* p = cells[i].at(x, y);
         *guide.at(x, y) = (p[0] + p[1] + p[2]) / 3.0f;
-        const int u = std::min(x * step + step / 2, view.width - 1),
-                  v = std::min(y * step + step / 2, view.height - 1);
+        const int u = std::min(x * grid_step + grid_step / 2, view.width - 1),
+                  v = std::min(y * grid_step + grid_step / 2, view.height - 1);
         const float depth = photos[i].depths[std::size_t(v) * std::size_t(view.width) + std::size_t(u)];
         if (!std::isfinite(depth)) continue;
         *gains.at(x, y) =

@@ -7,7 +7,8 @@
 namespace parvis::facades {
 namespace {
 
-constexpr int left = 20, right = 60, top = 40, bottom = 80;  // of a shadow in photograph 1, on the far wall
+constexpr int shadow_left = 20, shadow_right = 60, shadow_top = 40,
+              shadow_bottom = 80;  // of a shadow in photograph 1, on the far wall
 
 /// The street's photographs; in one of them a rectangle has a third of the light.
 std::vector<PreparedPhoto> shadowed(const Photos& input) {
@@ -18,8 +19,8 @@ std::vector<PreparedPhoto> shadowed(const Photos& input) {
     const float exposure = 0.8f + 0.1f * float(photos.size() - 1);
     for (float& value : photos.back().colours.pixels) value /= exposure;  // balanced
   }
-  for (int y = top; y < bottom; ++y)
-    for (int x = left; x < right; ++x)
+  for (int y = shadow_top; y < shadow_bottom; ++y)
+    for (int x = shadow_left; x < shadow_right; ++x)
       for (int c = 0; c < 3; ++c) photos[1].colours.at(x, y)[c] /= 3.0f;
   return photos;
 }
@@ -40,12 +41,16 @@ double light(const PreparedPhoto& photo, const ImageF& colours, int x0, int y0, 
 TEST(MovedShadows, AShadowInOnePhotographIsLightAsInTheOthers) {
   const Photos input;
   std::vector<PreparedPhoto> photos = shadowed(input);
-  EXPECT_NEAR(light(photos[1], photos[1].colours, left + 4, top + 4, right - 4, bottom - 4), 0.333, 0.01)
+  EXPECT_NEAR(light(photos[1], photos[1].colours, shadow_left + 4, shadow_top + 4, shadow_right - 4,
+                    shadow_bottom - 4),
+              0.333, 0.01)
       << "the control: it is there";
   const std::vector<ImageF> gains = shadow_gains(photos);
   apply_gains(gains[1], photos[1].colours);
-  EXPECT_NEAR(light(photos[1], photos[1].colours, left + 4, top + 4, right - 4, bottom - 4), 1.0, 0.12);
-  EXPECT_NEAR(light(photos[1], photos[1].colours, left, 90, right, 115), 1.0, 0.05)
+  EXPECT_NEAR(light(photos[1], photos[1].colours, shadow_left + 4, shadow_top + 4, shadow_right - 4,
+                    shadow_bottom - 4),
+              1.0, 0.12);
+  EXPECT_NEAR(light(photos[1], photos[1].colours, shadow_left, 90, shadow_right, 115), 1.0, 0.05)
       << "beside it nothing changes";
   for (const std::size_t other : {0u, 2u, 3u}) {
     apply_gains(gains[other], photos[other].colours);
@@ -65,8 +70,8 @@ TEST(MovedShadows, APlaceFlattensThemOnRequestAlone) {
   Photos input;
   Result<Image8> picture = read_image8(input.photos[1].file);
   ASSERT_TRUE(picture);
-  for (int y = top; y < bottom; ++y)
-    for (int x = left; x < right; ++x)
+  for (int y = shadow_top; y < shadow_bottom; ++y)
+    for (int x = shadow_left; x < shadow_right; ++x)
       for (int c = 0; c < 3; ++c)
         picture->at(x, y)[c] = std::uint8_t(
             255.0f * srgb_from_linear(linear_from_srgb(float(picture->at(x, y)[c]) / 255.0f) / 3.0f));

@@ -8,17 +8,8 @@
 namespace parvis::facades {
 namespace {
 
-constexpr SealedKind kind{"PVFACE_3", "packed facade"};
-constexpr std::size_t max_photos = 4096;
-constexpr int max_side = 65535;  // boxes are kept in 16 bits
-
-void append_text(std::string& bytes, const std::string& text) {
-  append_values(bytes, std::vector<char>(text.begin(), text.end()));
-}
-std::string take_text(Taker& taker) {
-  const std::vector<char> text = taker.take_values<char>();
-  return std::string(text.begin(), text.end());
-}
+constexpr SealedKind packed_kind{"PVFACE_3", "packed facade"};
+constexpr int max_box_side = 65535;  // boxes are kept in 16 bits
 
 /// Whether the shader's floats hold its numbers.
 bool is_finite(const PackedPhoto& photo) {
@@ -26,7 +17,7 @@ bool is_finite(const PackedPhoto& photo) {
   float sum = 0.0f;
   for (const glm::vec4& values : photo_row(photo, 0)) sum += values.x + values.y + values.z + values.w;
   return std::isfinite(sum) && view.fx > 0.0 && view.fy > 0.0 && view.width > 0 && view.height > 0 &&
-         view.width <= max_side && view.height <= max_side;
+         view.width <= max_box_side && view.height <= max_box_side;
 }
 
 /// Says what does not fit together; empty: all does.
@@ -102,11 +93,11 @@ Status write_facade(const std::filesystem::path& file, const PackedFacade& facad
     append_text(bytes, photo.name), append_value(bytes, photo.view), append_value(bytes, photo.balance);
   append_values(bytes, facade.layers), append_values(bytes, facade.tiles);
   append_values(bytes, facade.blocks), append_values(bytes, facade.depths);
-  return write_sealed(file, kind, bytes);
+  return write_sealed(file, packed_kind, bytes);
 }
 
 Result<PackedFacade> read_facade(const std::filesystem::path& file) {
-  const Result<std::string> content = read_sealed(file, kind);
+  const Result<std::string> content = read_sealed(file, packed_kind);
   if (!content) return content.errors();
   return facade_of(*content, file);
 }
@@ -116,18 +107,19 @@ Result<PackedFacade> facade_of(std::string_view content, const std::filesystem::
   PackedFacade facade;
   const std::uint32_t surfaces = taker.take<std::uint32_t>();
   for (std::uint32_t i = 0; i < surfaces && !taker.has_ended_early(); ++i)
-    facade.surfaces.push_back(take_text(taker));
+    facade.surfaces.push_back(taker.take_text());
   facade.corners = taker.take_values<glm::vec3>();
   facade.surface_of_triangle = taker.take_values<std::uint32_t>();
   facade.fallback = taker.take_values<glm::u8vec3>();
   facade.lists = taker.take_values<glm::uvec2>();
   facade.candidates = taker.take_values<std::uint32_t>();
   const std::uint32_t photos = taker.take<std::uint32_t>();
-  if (photos > max_photos)
-    return error("{}: it names {} photographs; at most {} are read", file.string(), photos, max_photos);
+  if (photos > max_facade_photos)
+    return error("{}: it names {} photographs; at most {} are read", file.string(), photos,
+                 max_facade_photos);
   for (std::uint32_t i = 0; i < photos && !taker.has_ended_early(); ++i) {
     PackedPhoto photo;
-    photo.name = take_text(taker);
+    photo.name = taker.take_text();
     photo.view = taker.take<View>(), photo.balance = taker.take<Balance>();
     facade.photos.push_back(std::move(photo));
   }

@@ -17,7 +17,8 @@
 
 namespace parvis::facades {
 
-inline constexpr int tile_inner = 62;  ///< pixels of the photograph in a tile, per side
+inline constexpr std::size_t max_facade_photos = 4096;  ///< of a file; more are refused
+inline constexpr int tile_inner = 62;                   ///< pixels of the photograph in a tile, per side
 inline constexpr int tile_border =
     1;  ///< texels about them that repeat the neighbours; coarse levels are read less near the edge
 inline constexpr int tile_side = tile_inner + 2 * tile_border;

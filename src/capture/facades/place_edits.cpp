@@ -190,23 +190,22 @@ Status check_collected(const PlaceSource& source, const PlaceLayers& place) {
   return errors.empty() ? Status(Done{}) : Status(errors);
 }
 
-void add(Errors& all, const Errors& more) { all.insert(all.end(), more.begin(), more.end()); }
-
 }  // namespace
 
 Result<PlaceLayers> make_place(const PlaceSource& source, const PlaceSettings& settings) {
   if (const Status status = check_files(source); !status) return status.errors();
   Errors notes = source.notes;
-  add(notes, collect_edits(source.folder));
+  append(notes, collect_edits(source.folder));
   const LayerKeeper keeper(source.folder, layers_key(source, settings));
   Result<PlaceLayers> place = place_layers(source.photographs, source.meshes, settings, &keeper);
   if (!place) return place;
-  add(place->warnings, notes);
+  append(place->warnings, notes);
   const Result<std::vector<FillingChoice>> choices = read_choices(source.folder);
   if (!choices) return choices.errors();
-  add(place->warnings, apply_choices(*choices, *place));
+  append(place->warnings, apply_choices(*choices, *place));
   for (std::size_t i = 0; i < place->names.size(); ++i)
-    if (const Status status = paint(source.folder, i, *place); !status) add(place->warnings, status.errors());
+    if (const Status status = paint(source.folder, i, *place); !status)
+      append(place->warnings, status.errors());
   return place;
 }
 

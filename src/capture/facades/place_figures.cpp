@@ -159,7 +159,7 @@ Image8 coverage_picture(const View& view, const std::vector<int>& counts) {
   return picture;
 }
 
-Image8 bytes_of(const ImageF& srgb) {
+Image8 rgb8_on_white(const ImageF& srgb) {
   Image8 bytes(srgb.width, srgb.height, 3, 255);
   for (int y = 0; y < srgb.height; ++y)
     for (int x = 0; x < srgb.width; ++x)
@@ -255,7 +255,8 @@ Image8 projection_figure(const PlaceLayers& place, const PackedFacade& facade, s
         colours.at(x, y)[c] = std::uint8_t((own[c] + 2 * tint[c]) / (is_seen ? 3 : 8));
     }
   Sheet sheet(2, 1, aspect_of(view));
-  sheet.put(0, 0, bytes_of(view_of_facade(facade, FacadeTexels(facade), view))), sheet.put(1, 0, colours);
+  sheet.put(0, 0, rgb8_on_white(view_of_facade(facade, FacadeTexels(facade), view))),
+      sheet.put(1, 0, colours);
   return sheet.take();
 }
 

@@ -67,4 +67,7 @@ Status write_layered_pictures(const PlaceSource& source, const PlaceLayers& plac
 /// A scene that somebody changed is left alone.
 Result<PackedFacade> pack_place(const PlaceSource& source, const PlaceLayers& place);
 
+/// Appends `more` to `all`.
+inline void append(Errors& all, const Errors& more) { all.insert(all.end(), more.begin(), more.end()); }
+
 }  // namespace parvis::facades

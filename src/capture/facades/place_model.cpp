@@ -16,8 +16,6 @@ namespace {
 
 constexpr double ground_edge = 0.15;  ///< longest of the ground's triangles, of the median viewing distance
 
-void add(Errors& all, const Errors& more) { all.insert(all.end(), more.begin(), more.end()); }
-
 /// Each triangle divided into four until its edges are short: a colour where no photograph says anything
 /// belongs to a corner.
 void divide_triangles(Mesh& mesh, double longest_edge) {
@@ -52,7 +50,7 @@ std::vector<GreyPhoto> grey_photos(const PlaceSource& source, Errors& notes) {
     const Result<View> view = view_of(photograph);
     const Result<Image8> picture = view ? read_image8(photograph.file) : view.errors();
     if (!picture)
-      add(notes, picture.errors());
+      append(notes, picture.errors());
     else if (picture->width == view->width && picture->height == view->height)
       photos.push_back(grey_photo(*view, *picture));
   }
@@ -102,7 +100,7 @@ Result<PlaceModel> propose_place_model(const std::filesystem::path& folder, cons
     if (!text) return text.errors();
     if (Status status = apply_hints(*planes, *text, settings.hints.string()); !status) return status.errors();
   }
-  add(model.notes, planes->notes);
+  append(model.notes, planes->notes);
   model.planes = *std::move(planes);
   if (!settings.finds_relief) {
     model.meshes = meshes_of(model.planes);
@@ -117,7 +115,7 @@ Result<PlaceModel> propose_place_model(const std::filesystem::path& folder, cons
     if (named.name == "ground")
       divide_triangles(named.mesh, ground_edge * photographs::viewing_distance(loaded->set));
   model.meshes.push_back(backdrop(model.meshes, loaded->set));
-  add(model.notes, reliefs.notes);
+  append(model.notes, reliefs.notes);
   return model;
 }
 

@@ -15,8 +15,8 @@
 namespace parvis::facades {
 namespace {
 
-constexpr std::size_t max_photos = 12, max_partners = 4;
-constexpr double min_angle_deg = 3.0, max_angle_deg = 45.0, best_angle_deg = 14.0;
+constexpr std::size_t max_swept_photos = 12, max_partners = 4;
+constexpr double min_pair_angle_deg = 3.0, max_pair_angle_deg = 45.0, best_pair_angle_deg = 14.0;
 constexpr int window_radius = 2;  ///< grid points
 constexpr int min_heights = 12, max_heights = 144;
 constexpr std::size_t best_pairs = 4;  ///< that are averaged; fewer where fewer show a point
@@ -72,8 +72,8 @@ std::vector<Pair> pairs_of(const SweptRectangle& rectangle, std::span<const Grey
       const glm::dvec3 to_a = glm::normalize(photos[chosen[a]].view.centre - middle),
                        to_b = glm::normalize(photos[chosen[b]].view.centre - middle);
       const double angle = glm::degrees(std::acos(std::clamp(glm::dot(to_a, to_b), -1.0, 1.0)));
-      if (a != b && angle > min_angle_deg && angle < max_angle_deg)
-        partners.emplace_back(std::abs(angle - best_angle_deg), b);
+      if (a != b && angle > min_pair_angle_deg && angle < max_pair_angle_deg)
+        partners.emplace_back(std::abs(angle - best_pair_angle_deg), b);
     }
     std::ranges::sort(partners);
     for (std::size_t i = 0; i < std::min(partners.size(), max_partners); ++i)
@@ -361,7 +361,7 @@ std::vector<std::size_t> photos_of_sweep(const SweptRectangle& rectangle, std::s
   for (const GreyPhoto& photo : photos) shown.push_back(shown_by(photo, rectangle));
   std::vector<std::size_t> chosen;
   std::array<double, 81> covered{};
-  while (chosen.size() < max_photos) {
+  while (chosen.size() < max_swept_photos) {
     double best_gain = 0.5;
     std::size_t best = photos.size();
     for (std::size_t i = 0; i < photos.size(); ++i) {

@@ -29,6 +29,9 @@ struct PreparedPhoto {
 /// camera's, a lens with distortion.
 Result<PreparedPhoto> prepared_photo(const photographs::Photograph& photograph, const LayerModel& model);
 
+/// Difference between two depths, of the depth, up to which one surface has both (not_hidden).
+inline constexpr float depth_tolerance = 0.01f;
+
 /// Depths of the four pixels around a point of the picture.
 glm::vec4 depths_around(const PreparedPhoto& photo, glm::dvec2 pixel);
 

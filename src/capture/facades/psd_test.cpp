@@ -168,19 +168,19 @@ TEST(Psd, SixteenBitsAreRoundedToEight) {
     EXPECT_EQ(read->layers[0].pixels.pixels[4 * i], (samples[i] + 128) / 257) << i;
 }
 
-struct Written {
+struct WrittenPsd {
   LayeredView layered;
   LayerPixels pixels;
   PsdPicture picture;
 };
 
 /// A photograph of noise, three layers deep.
-Written written_layers() {
+WrittenPsd written_layers() {
   LayerModel model = model_of(
       {wall("far", 8, -6, 6, -5, 5), wall("middle", 5, -2, 2, -2, 2), wall("near", 4, -1, 1, -1, 1)});
   const View view = test_view(128, 96);
   const VisibilityLayers visibility = visibility_layers(model, view, "test");
-  Written written{image_layers(model, view, visibility), {}, {}};
+  WrittenPsd written{image_layers(model, view, visibility), {}, {}};
   const Image8 photograph = noisy(128, 96, 4, 9);
   written.pixels = original_pixels(photograph, written.layered);
   written.picture =
@@ -188,12 +188,12 @@ Written written_layers() {
   return written;
 }
 
-Result<ReadLayers> read_back(const Written& written, const PsdPicture& edited) {
+Result<ReadLayers> read_back(const WrittenPsd& written, const PsdPicture& edited) {
   return read_layers(edited, written.layered, written.pixels, 128, 96, "0001.psd");
 }
 
 TEST(LayeredPicture, UntouchedLayersComeBackExactly) {
-  const Written written = written_layers();
+  const WrittenPsd written = written_layers();
   ASSERT_EQ(written.picture.layers.size(), 5u);
   const Result<ReadLayers> read = read_back(written, written.picture);
   ASSERT_TRUE(read);
@@ -202,7 +202,7 @@ TEST(LayeredPicture, UntouchedLayersComeBackExactly) {
 }
 
 TEST(LayeredPicture, TheMaskIsWhiteWhereTheSurfaceIsSeen) {
-  const Written written = written_layers();
+  const WrittenPsd written = written_layers();
   const PsdLayer& far = written.picture.layers[1];  // above the photograph
   EXPECT_EQ(far.name, "L02-000 far");
   EXPECT_FALSE(far.is_mask_enabled);
@@ -215,7 +215,7 @@ TEST(LayeredPicture, TheMaskIsWhiteWhereTheSurfaceIsSeen) {
 }
 
 TEST(LayeredPicture, ReorderedLayersAreFoundByName) {
-  const Written written = written_layers();
+  const WrittenPsd written = written_layers();
   PsdPicture edited = written.picture;
   std::ranges::reverse(edited.layers);
   const Result<ReadLayers> read = read_back(written, edited);
@@ -225,7 +225,7 @@ TEST(LayeredPicture, ReorderedLayersAreFoundByName) {
 }
 
 TEST(LayeredPicture, WhatAnArtistDidToTheLayersIsSaid) {
-  const Written written = written_layers();
+  const WrittenPsd written = written_layers();
   const auto messages = [&](PsdPicture edited) {
     const Result<ReadLayers> read = read_back(written, edited);
     return read ? to_string(read->messages) : to_string(read.errors());
@@ -269,7 +269,7 @@ TEST(LayeredPicture, WhatAnArtistDidToTheLayersIsSaid) {
 }
 
 TEST(LayeredPicture, AlphaThatAnArtistPaintedIsKept) {
-  const Written written = written_layers();
+  const WrittenPsd written = written_layers();
   PsdPicture edited = written.picture;
   for (int y = 0; y < 20; ++y) edited.layers[3].pixels.at(5, y)[3] = 40;  // between the bars of a balcony
   const Result<ReadLayers> read = read_back(written, edited);
@@ -283,7 +283,7 @@ TEST(LayeredPicture, GimpEditsOneLayerAndLeavesTheOthers) {
   if (std::system("command -v gimp-console-2.10 > /dev/null 2>&1") != 0)
     GTEST_SKIP() << "skipped: no gimp-console-2.10 here (package gimp)";
   const TestFolder folder;
-  const Written written = written_layers();
+  const WrittenPsd written = written_layers();
   ASSERT_TRUE(write_psd(folder.path() / "in.psd", written.picture));
   folder.write("edit.scm", R"((let* ((image (car (gimp-file-load RUN-NONINTERACTIVE "in.psd" "in.psd")))
        (far (car (gimp-image-get-layer-by-name image "L02-000 far")))

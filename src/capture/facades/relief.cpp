@@ -27,7 +27,7 @@ constexpr double max_growth = 0.3;         ///< of a surface beyond its points
 constexpr double corner_reach = 0.08;      ///< a side is free where no other surface is nearer than this
 constexpr double min_grown_share =
     0.5;  ///< of certain points in a line of the grid that the surface grows over
-constexpr double outer_quantile = 0.01;  ///< of points that do not count for the range
+constexpr double range_quantile = 0.01;  ///< of points that do not count for the range
 
 /// The rectangle of a surface; nothing where it is no rectangle.
 std::optional<SweptRectangle> rectangle_of(const CoarseSurface& surface) {
@@ -85,8 +85,8 @@ void set_range(SweptRectangle& rectangle, const photographs::PhotographSet& set,
   rectangle.low = -margin, rectangle.high = std::min(margin, camera);
   if (heights.size() < min_points_for_range) return;
   const auto at = [&](double q) { return heights[std::size_t(std::lround(q * double(heights.size() - 1)))]; };
-  rectangle.low = std::min(at(outer_quantile), 0.0) - margin;
-  rectangle.high = std::min(std::max(at(1.0 - outer_quantile), 0.0) + margin, camera);
+  rectangle.low = std::min(at(range_quantile), 0.0) - margin;
+  rectangle.high = std::min(std::max(at(1.0 - range_quantile), 0.0) + margin, camera);
 }
 
 /// Does the surface lie on a relief (or inside it) for the most part?

@@ -16,9 +16,8 @@
 namespace parvis::facades {
 namespace {
 
-using namespace scene::attribute;
-
 scene::NodeSchema facade_schema() {
+  using namespace scene::attribute;
   scene::NodeSchema schema{
       .type = "facade",
       .help =

@@ -19,7 +19,7 @@ using photographs::PhotographSet;
 constexpr std::size_t max_probes = 8;  ///< photographs, spread over all, that are asked
 constexpr int probe_width = 400;       ///< pixels: a point is in the right triangle or beside it
 constexpr double same_depth = 0.03;    ///< of a point and of the scan behind its pixel, as a share
-constexpr std::size_t min_points = 50;
+constexpr std::size_t min_scan_points = 50;
 /// Of the points before or behind the scan, those that lie on it: in a wrong frame a few do, too.
 constexpr double min_share = 0.25;
 
@@ -57,7 +57,9 @@ Result<std::vector<Probe>> probes_of(const PhotographSet& set) {
 /// Points in pixels that show the scan, and those of them that lie on it.
 struct Agreement {
   std::size_t asked = 0, on_scan = 0;
-  bool is_enough() const { return double(on_scan) >= min_share * double(asked) && on_scan >= min_points / 2; }
+  bool is_enough() const {
+    return double(on_scan) >= min_share * double(asked) && on_scan >= min_scan_points / 2;
+  }
 };
 
 Result<Agreement> agreement(const std::vector<NamedMesh>& meshes, const std::vector<Probe>& probes) {
@@ -96,7 +98,7 @@ Result<PlacedScan> placed_scan(const std::vector<NamedMesh>& meshes, const Photo
   if (!probes) return probes.errors();
   std::size_t points = 0;
   for (const Probe& probe : *probes) points += probe.points.size();
-  if (points < min_points) return PlacedScan{meshes, false};
+  if (points < min_scan_points) return PlacedScan{meshes, false};
   const glm::dmat4 y_up = glm::rotate(glm::dmat4(1.0), glm::radians(-90.0), glm::dvec3(1, 0, 0));
   const std::array<glm::dmat4, 4> frames{glm::dmat4(1.0), set.world_from_given, y_up,
                                          set.world_from_given * y_up};

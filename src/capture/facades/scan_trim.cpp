@@ -19,7 +19,7 @@ namespace {
 constexpr float contradicted = 0.12f;  ///< of sRGB, in the channel that differs most
 /// Between the directions to two photographs that are compared: from the same place any surface agrees, and
 /// from the side real ones differ.
-constexpr double min_angle_deg = 3.0, max_angle_deg = 26.0;
+constexpr double min_compared_angle_deg = 3.0, max_compared_angle_deg = 26.0;
 constexpr int smoothing_rounds = 8;   ///< in each a triangle takes the mean of its own and its neighbours'
 constexpr double crumb_share = 0.01;  ///< of a mesh's triangles
 
@@ -33,7 +33,8 @@ glm::dvec3 centre_of(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
 std::optional<float> contradiction_at(std::span<const PreparedPhoto> photos, std::span<const ImageF> srgb,
                                       glm::dvec3 point) {
   const Sightings found = sightings(photos, srgb, point);
-  const double most = std::cos(glm::radians(min_angle_deg)), fewest = std::cos(glm::radians(max_angle_deg));
+  const double most = std::cos(glm::radians(min_compared_angle_deg)),
+               fewest = std::cos(glm::radians(max_compared_angle_deg));
   std::vector<float> differences;
   for (std::size_t a = 0; a < found.size(); ++a)
     for (std::size_t b = a + 1; b < found.size(); ++b) {

@@ -45,10 +45,10 @@ NamedMesh scan() {
   return named;
 }
 
-struct Place {
+struct PhotographedScan {
   TestFolder folder;
   std::vector<photographs::Photograph> photos;
-  Place() {
+  PhotographedScan() {
     for (int i = 0; i < 5; ++i)
       photos.push_back(photograph_of(truth(), colour, folder, fmt::format("{}.png", i),
                                      test_view(240, 180, {0.7 * i - 1.0, 0, 0.3 * (i % 2)}),
@@ -68,7 +68,7 @@ long count_in(const Mesh& mesh, double left, double right, double bottom, double
 }
 
 TEST(ScanTrim, WhatGoesOnBeyondTheHouseIsCutOffAndTheHouseStays) {
-  const Place place;
+  const PhotographedScan place;
   const std::vector<NamedMesh> meshes{scan(), wall("few", 20, -40, 40, -30, 30)};
   const Result<TrimmedScans> trimmed = trimmed_scans(meshes, place.photos);
   ASSERT_TRUE(trimmed) << to_string(trimmed.errors());
@@ -89,7 +89,7 @@ TEST(ScanTrim, WhatGoesOnBeyondTheHouseIsCutOffAndTheHouseStays) {
 }
 
 TEST(ScanTrim, WhatIsCutOffLacksInWhatAMeasurementCovers) {
-  const Place place;
+  const PhotographedScan place;
   const std::vector<NamedMesh> meshes{scan()};
   const Result<PlaceFigures> whole = measured_place(place.photos, meshes, {"2.png"}, {1, false, false}),
                              trimmed = measured_place(place.photos, meshes, {"2.png"}, {1, false, true});
@@ -101,7 +101,7 @@ TEST(ScanTrim, WhatIsCutOffLacksInWhatAMeasurementCovers) {
 }
 
 TEST(ScanTrim, WithoutASecondPhotographNothingIsCutOff) {
-  Place place;
+  PhotographedScan place;
   place.photos.resize(1);
   const Result<TrimmedScans> trimmed = trimmed_scans({scan()}, place.photos);
   ASSERT_TRUE(trimmed);
@@ -110,7 +110,7 @@ TEST(ScanTrim, WithoutASecondPhotographNothingIsCutOff) {
 }
 
 TEST(ScanTrim, TheBackdropStays) {
-  const Place place;
+  const PhotographedScan place;
   std::vector<NamedMesh> meshes{scan()};
   meshes[0].name = backdrop_name;
   const Result<TrimmedScans> trimmed = trimmed_scans(meshes, place.photos);
@@ -119,7 +119,7 @@ TEST(ScanTrim, TheBackdropStays) {
 }
 
 TEST(ScanTrim, APhotographThatCannotBeReadIsNamedAndAnEmptyModelIsAnError) {
-  Place place;
+  PhotographedScan place;
   place.photos[0].file = place.folder.path() / "missing.png";
   const Result<TrimmedScans> trimmed = trimmed_scans({scan()}, place.photos);
   ASSERT_TRUE(trimmed);

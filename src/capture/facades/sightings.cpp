@@ -9,8 +9,6 @@
 namespace parvis::facades {
 namespace {
 
-constexpr float depth_tolerance = 0.01f;
-
 ImageF encoded(const ImageF& linear) {
   ImageF srgb = linear;
   for (float& value : srgb.pixels) value = srgb_from_linear(std::max(value, 0.0f));

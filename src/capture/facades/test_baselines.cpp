@@ -15,21 +15,9 @@
 namespace parvis::facades {
 namespace {
 
-constexpr float depth_tolerance = 0.01f;
 constexpr double part_pixels = 12.0;  ///< of subdivision: a part's size in the photograph that sees it best
 constexpr int nearest_photos = 3;
 constexpr std::size_t max_texture_side = 16384;
-
-struct Frame {
-  glm::dvec3 origin, u, v, normal;
-};
-Frame frame_of(const LayerTriangle& triangle) {
-  const auto& c = triangle.corners;
-  const glm::dvec3 normal = glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
-  const glm::dvec3 up = std::abs(normal.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 u = glm::normalize(glm::cross(up, normal));
-  return {c[0], u, glm::cross(normal, u), normal};
-}
 
 /// The pixel that shows a point, where the photograph sees it.
 std::optional<glm::dvec2> seen_at(const PreparedPhoto& photo, glm::dvec3 point) {
@@ -102,7 +90,7 @@ class ExtractedTextures {
     auto known = faces_.find(face);
     if (known == faces_.end()) {
       const LayerTriangle& triangle = model_.triangles[asked.triangle];
-      const Frame frame = frame_of(triangle);
+      const PlaneFrame frame = frame_of(triangle);
       known = faces_.emplace(face, Face{frame, finest_pixels(triangle, frame.normal, photos_), {}}).first;
     }
     Face& of_face = known->second;
@@ -123,7 +111,7 @@ class ExtractedTextures {
 
  private:
   struct Face {
-    Frame frame;
+    PlaneFrame frame;
     double texels_per_metre = 0.0;
     std::unordered_map<std::uint64_t, glm::vec4> texels;
   };
@@ -158,7 +146,7 @@ class SubdividedFaces {
     const std::uint32_t face = triangle.face;
     auto known = faces_.find(face);
     if (known == faces_.end()) {
-      const Frame frame = frame_of(triangle);
+      const PlaneFrame frame = frame_of(triangle);
       known = faces_.emplace(face, Face{frame, finest_pixels(triangle, frame.normal, photos_), {}}).first;
     }
     Face& of_face = known->second;
@@ -172,7 +160,7 @@ class SubdividedFaces {
 
  private:
   struct Face {
-    Frame frame;
+    PlaneFrame frame;
     double pixels_per_metre = 0.0;
     std::map<std::pair<int, int>, std::vector<std::uint32_t>> photos_of_part;
   };
@@ -278,7 +266,7 @@ ImageF baseline_view(BaselineMethod method, const LayerModel& model, const View&
 
 std::size_t extracted_texture_bytes(const LayerModel& model, std::span<const PreparedPhoto> photos) {
   struct Face {
-    Frame frame;
+    PlaneFrame frame;
     double finest = 0.0;
     glm::dvec2 low{1e300}, high{-1e300};
   };

@@ -19,7 +19,7 @@ namespace {
 using photographs::Photograph;
 
 /// A view of a facade, which is sRGB already, as bytes.
-Image8 bytes_of(const ImageF& srgb) {
+Image8 rgba8_of(const ImageF& srgb) {
   Image8 bytes(srgb.width, srgb.height, 4);
   for (std::size_t i = 0; i < bytes.pixels.size(); ++i)
     bytes.pixels[i] = std::uint8_t(std::lround(255.0f * std::clamp(srgb.pixels[i], 0.0f, 1.0f)));
@@ -104,7 +104,7 @@ Status judge_held_out(const std::vector<Photograph>& held_out, const LayerModel&
     const Result<View> view = view_of(held_out[i]);
     if (!view) return view.errors();
     const Image8 mask = model_mask(given, *view);
-    const Image8 shown = coloured_by_layers(bytes_of(facade.view(*view)), colours.sources(*view));
+    const Image8 shown = coloured_by_layers(rgba8_of(facade.view(*view)), colours.sources(*view));
     add(figures.methods[0], rephotography(shown, truth, mask), share);
     figures.uncovered_percent +=
         share * rephotography(coloured_by_layers(shown, bare.sources(*view)), truth, mask).covered_percent;
@@ -126,13 +126,13 @@ Status judge_own_viewpoints(const std::vector<Photograph>& photos, const PlaceLa
     const Result<Image8> truth = read_image8(photo->file);
     if (!truth) return truth.errors();
     const Image8 mask = model_mask(place.model, place.views[i]);
-    const Rephotography judged = rephotography(bytes_of(facade.view(place.views[i])), *truth, mask);
+    const Rephotography judged = rephotography(rgba8_of(facade.view(place.views[i])), *truth, mask);
     figures.own_viewpoint_psnr_db += share * judged.psnr_db;
     figures.own_viewpoint_covered_percent += share * judged.covered_percent;
     View aside = place.views[i];  // the control: where the photograph does not count as its own viewpoint
     aside.centre = glm::mix(aside.centre, place.views[(i + 1) % place.views.size()].centre, 0.05);
     figures.aside_viewpoint_psnr_db +=
-        share * rephotography(bytes_of(facade.view(aside)), *truth, mask).psnr_db;
+        share * rephotography(rgba8_of(facade.view(aside)), *truth, mask).psnr_db;
   }
   return Done{};
 }

@@ -31,7 +31,7 @@ double psnr(double squared, double count) {
   return 10.0 * std::log10(255.0 * 255.0 * count / std::max(squared, 1e-9));
 }
 
-double luminance(const std::uint8_t* p) { return 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]; }
+double luma(const std::uint8_t* p) { return 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]; }
 
 }  // namespace
 
@@ -61,7 +61,7 @@ Rephotography rephotography(const Image8& rendered, const Image8& photograph, co
       Fit window;
       for (int v = std::max(y - ncc_radius, 0); v <= std::min(y + ncc_radius, rendered.height - 1); ++v)
         for (int u = std::max(x - ncc_radius, 0); u <= std::min(x + ncc_radius, rendered.width - 1); ++u)
-          if (is_covered(u, v)) window.add(luminance(rendered.at(u, v)), luminance(photograph.at(u, v)));
+          if (is_covered(u, v)) window.add(luma(rendered.at(u, v)), luma(photograph.at(u, v)));
       sums[row] += 1.0 - window.correlation(), ++windows[row];
     }
   });

@@ -9,11 +9,11 @@
 namespace parvis::facades {
 namespace {
 
-struct Packed {
+struct PackedStreet {
   Photos input;
   PackedFacade facade;
 
-  explicit Packed(int cells) {
+  explicit PackedStreet(int cells) {
     for (int i = 4; i < 7; ++i)
       input.photos.push_back(photograph(input.folder, fmt::format("{:04}.png", i),
                                         test_view(160, 120, {1.3 * i - 5.6, 0.4, 0.5}), 1.0f));
@@ -43,7 +43,7 @@ double psnr(const ImageF& a, const ImageF& b) {
 }
 
 TEST(ViewChoice, AFewPhotographsShowWhatAllOfThemShow) {
-  const Packed packed(24);
+  const PackedStreet packed(24);
   const View view = test_view(160, 120, {0.4, 0.5, 0.2});
   const ViewChooser chooser(packed.facade);
   const ViewChoice choice = chooser.choice(glm::vec3(view.centre), float(1.0 / view.fx));
@@ -62,7 +62,7 @@ TEST(ViewChoice, AFewPhotographsShowWhatAllOfThemShow) {
 }
 
 TEST(ViewChoice, OneChoiceForATriangleShowsWhatEachPixelWouldChoose) {
-  const Packed packed(64);
+  const PackedStreet packed(64);
   const FacadeTexels texels(packed.facade);
   const ViewChooser chooser(packed.facade);
   for (const glm::dvec3 eye : {glm::dvec3(0.4, 0.5, 0.2), packed.facade.photos[1].view.centre}) {
@@ -97,7 +97,7 @@ TEST(ViewChoice, ATriangleThatFillsTheViewKeepsAllItsPhotographs) {
 }
 
 TEST(ViewChoice, ItHoldsForAPartOfTheWayToTheNextPhotograph) {
-  const Packed packed(24);
+  const PackedStreet packed(24);
   const ViewChooser chooser(packed.facade);
   const glm::vec3 own(packed.facade.photos[0].view.centre);
   EXPECT_NEAR(chooser.step({0.0f, 100.0f, 0.0f}), 0.05f * 0.792f, 0.001f);

@@ -73,8 +73,8 @@ void match_to_pictures(LoadedSet& loaded, const PictureNames& pictures, const fs
 }
 
 /// A view with the size of its picture.
-Result<Photograph> photograph_of(const ViewOfPicture& view, const PictureNames& pictures,
-                                 const fs::path& folder) {
+Result<Photograph> photograph_of_view(const ViewOfPicture& view, const PictureNames& pictures,
+                                      const fs::path& folder) {
   const std::optional<std::string> name = pictures.find(view.name);
   if (!name) return error("{}: there is a camera but no picture of this name", view.name);
   const Result<PictureHeader> info = read_picture_header(folder / *name);
@@ -100,7 +100,7 @@ Result<LoadedSet> set_of_views(const Result<std::vector<ViewOfPicture>>& views, 
   if (views->empty()) return error("{}: holds no perspective camera", source.string());
   LoadedSet loaded;
   for (const ViewOfPicture& view : *views) {
-    Result<Photograph> photograph = photograph_of(view, pictures, folder);
+    Result<Photograph> photograph = photograph_of_view(view, pictures, folder);
     if (photograph)
       loaded.set.photographs.push_back(std::move(*photograph));
     else

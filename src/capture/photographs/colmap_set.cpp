@@ -18,8 +18,8 @@ bool leads_out(const std::string& name) {
 }
 
 /// The photograph of an image, or why there is none.
-Result<Photograph> photograph_of(const ColmapImage& image, const ColmapModel& model,
-                                 const std::filesystem::path& picture_folder) {
+Result<Photograph> photograph_of_colmap(const ColmapImage& image, const ColmapModel& model,
+                                        const std::filesystem::path& picture_folder) {
   const auto camera = model.cameras.find(image.camera_id);
   if (camera == model.cameras.end())
     return error("{}: has no camera: the model has none with the number {}", image.name, image.camera_id);
@@ -74,7 +74,7 @@ LoadedSet photograph_set_of(const ColmapModel& model, const std::filesystem::pat
   std::set<std::uint32_t> used;
   ImageOfId images;
   for (const ColmapImage& image : model.images) {
-    Result<Photograph> photograph = photograph_of(image, model, picture_folder);
+    Result<Photograph> photograph = photograph_of_colmap(image, model, picture_folder);
     if (!photograph) {
       loaded.problems.insert(loaded.problems.end(), photograph.errors().begin(), photograph.errors().end());
     } else if (!names.insert(image.name).second) {

@@ -11,7 +11,7 @@ namespace parvis::photographs {
 namespace {
 using Json = nlohmann::json;
 
-constexpr int max_depth = 200;
+constexpr int max_node_depth = 200;
 
 /// The JSON of a .gltf, or the first chunk of a .glb; empty where that is cut short.
 std::string_view json_text(std::string_view bytes) {
@@ -55,7 +55,7 @@ class CameraWalk {
 
   bool visit(const Json& index, const glm::dmat4& world_from_parent, int depth) {
     const Json& nodes = file_["nodes"];
-    if (!index.is_number_unsigned() || index.get<std::size_t>() >= nodes.size() || depth > max_depth)
+    if (!index.is_number_unsigned() || index.get<std::size_t>() >= nodes.size() || depth > max_node_depth)
       return false;
     if (++visited_ > nodes.size()) return false;  // a node below itself, or below two
     const Json& node = nodes[index.get<std::size_t>()];

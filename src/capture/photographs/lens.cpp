@@ -8,7 +8,7 @@
 namespace parvis::photographs {
 namespace {
 
-constexpr LensModelInfo models[lens_model_count] = {
+constexpr LensModelInfo model_infos[lens_model_count] = {
     {LensModel::simple_pinhole, "SIMPLE_PINHOLE", "f, cx, cy", 3, 1},
     {LensModel::pinhole, "PINHOLE", "fx, fy, cx, cy", 4, 2},
     {LensModel::simple_radial, "SIMPLE_RADIAL", "f, cx, cy, k", 4, 1},
@@ -121,12 +121,12 @@ std::optional<glm::dvec2> undistorted_point(const Lens& lens, glm::dvec2 target)
 
 }  // namespace
 
-std::span<const LensModelInfo> lens_models() { return models; }
+std::span<const LensModelInfo> lens_models() { return model_infos; }
 
-const LensModelInfo& info(LensModel model) { return models[int(model)]; }
+const LensModelInfo& info(LensModel model) { return model_infos[int(model)]; }
 
 std::optional<LensModel> lens_model_of_name(std::string_view name) {
-  for (const LensModelInfo& model : models)
+  for (const LensModelInfo& model : model_infos)
     if (model.name == name) return model.model;
   return std::nullopt;
 }

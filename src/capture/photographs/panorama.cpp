@@ -31,7 +31,7 @@ glm::dvec2 panorama_pixel(const Image8& panorama, glm::dvec3 direction, double m
           (0.5 - height / std::numbers::pi) * panorama.height};
 }
 
-Photograph photograph_of(const Face& face, const std::string& name, int side, glm::dvec3 position) {
+Photograph photograph_of_face(const Face& face, const std::string& name, int side, glm::dvec3 position) {
   Photograph photograph;
   photograph.name = name + "_" + face.name + ".png";
   photograph.lens = pinhole_lens(side, side, 0.5 * side, 0.5 * side, 0.5 * side, 0.5 * side);
@@ -51,7 +51,7 @@ Result<std::vector<Picture>> faces_of_panorama(const Image8& panorama, const std
                  panorama.width, panorama.height);
   std::vector<Picture> pictures;
   for (const Face& face : faces) {
-    Picture picture{photograph_of(face, name, panorama.width / 4, position),
+    Picture picture{photograph_of_face(face, name, panorama.width / 4, position),
                     Image8(panorama.width / 4, panorama.width / 4, 4)};
     parallel_for(
         std::size_t(picture.image.height),
@@ -69,7 +69,7 @@ Result<std::vector<Picture>> faces_of_panorama(const Image8& panorama, const std
 
 std::vector<Photograph> face_cameras(const std::string& name, int side, glm::dvec3 position) {
   std::vector<Photograph> cameras;
-  for (const Face& face : faces) cameras.push_back(photograph_of(face, name, side, position));
+  for (const Face& face : faces) cameras.push_back(photograph_of_face(face, name, side, position));
   return cameras;
 }
 

@@ -12,7 +12,7 @@
 namespace parvis::photographs {
 namespace {
 
-const glm::dvec3 eye(3.0, 4.0, 1.7);
+const glm::dvec3 standpoint(3.0, 4.0, 1.7);
 
 /// A smooth world: each channel is a wave across directions.
 glm::dvec3 colour_along(glm::dvec3 d) {
@@ -33,7 +33,7 @@ Image8 test_panorama(int width) {
 }
 
 TEST(Panorama, ItsFacesAreWhatCamerasThereSee) {
-  const auto faces = faces_of_panorama(test_panorama(1024), "square", eye);
+  const auto faces = faces_of_panorama(test_panorama(1024), "square", standpoint);
   ASSERT_TRUE(faces) << to_string(faces.errors());
   ASSERT_EQ(faces->size(), 6u);
   for (const Picture& face : *faces) {
@@ -53,8 +53,8 @@ TEST(Panorama, ItsFacesAreWhatCamerasThereSee) {
 }
 
 TEST(Panorama, ItsMiddleLooksWhereItIsSaidTo) {
-  const auto north = faces_of_panorama(test_panorama(256), "square", eye),
-             east = faces_of_panorama(test_panorama(256), "square", eye, 90.0);
+  const auto north = faces_of_panorama(test_panorama(256), "square", standpoint),
+             east = faces_of_panorama(test_panorama(256), "square", standpoint, 90.0);
   ASSERT_TRUE(north);
   ASSERT_TRUE(east);
   EXPECT_EQ((*east)[1].image.pixels, (*north)[0].image.pixels) << "east now shows the middle";
@@ -64,7 +64,7 @@ TEST(Panorama, ItsMiddleLooksWhereItIsSaidTo) {
 TEST(Panorama, BecomesFilesWithCameras) {
   const TestFolder folder;
   ASSERT_TRUE(write_image(folder.path() / "square.png", test_panorama(64)));
-  const auto set = split_panorama(folder.path() / "square.png", folder.path() / "faces", eye);
+  const auto set = split_panorama(folder.path() / "square.png", folder.path() / "faces", standpoint);
   ASSERT_TRUE(set) << to_string(set.errors());
   ASSERT_EQ(set->photographs.size(), 6u);
   for (const Photograph& photograph : set->photographs)
@@ -72,7 +72,7 @@ TEST(Panorama, BecomesFilesWithCameras) {
 }
 
 TEST(Panorama, AnotherShapeIsRefused) {
-  const auto faces = faces_of_panorama(Image8(300, 100, 4), "strip.jpg", eye);
+  const auto faces = faces_of_panorama(Image8(300, 100, 4), "strip.jpg", standpoint);
   ASSERT_FALSE(faces);
   EXPECT_NE(to_string(faces.errors()).find("strip.jpg: 300 x 100 pixels are no full panorama"),
             std::string::npos);

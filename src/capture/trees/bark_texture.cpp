@@ -10,11 +10,11 @@ namespace parvis::trees {
 namespace {
 
 constexpr int texture_width = 256, texels_per_ring = 8, max_texture_height = 2048;
-constexpr int min_wood_alpha = 250;   // of a pixel that shows no background
-constexpr float min_cosine = 0.2f;    // between the bark's normal and the direction to a camera
-constexpr int grain_scale = 5;        // how much smaller the repeated contrast is
-constexpr int mean_radius = 12;       // texels: of the mean that contrast is measured from
-constexpr float max_contrast = 0.7f;  // natural logarithm
+constexpr int min_wood_alpha = 250;        // of a pixel that shows no background
+constexpr float min_cosine = 0.2f;         // between the bark's normal and the direction to a camera
+constexpr int grain_scale = 5;             // how much smaller the repeated contrast is
+constexpr int mean_radius = 12;            // texels: of the mean that contrast is measured from
+constexpr float max_bark_contrast = 0.7f;  // natural logarithm
 
 glm::vec3 linear_of(const std::uint8_t* srgb) {
   return linear_from_srgb(glm::vec3(float(srgb[0]), float(srgb[1]), float(srgb[2])) / 255.0f);
@@ -67,7 +67,7 @@ std::vector<float> contrast_of(const std::vector<glm::vec4>& texels, int height)
         }
       const float ratio = (luminance(glm::vec3(here)) + 1e-4f) / (sum / count + 1e-4f);
       contrast[row * texture_width + std::size_t(x)] =
-          std::clamp(std::log(ratio), -max_contrast, max_contrast);
+          std::clamp(std::log(ratio), -max_bark_contrast, max_bark_contrast);
     }
   });
   return contrast;

@@ -12,7 +12,7 @@ namespace parvis::trees {
 namespace {
 
 /// The camera of a photograph in single precision.
-Pinhole pinhole_of(const photographs::Photograph& photograph) {
+Pinhole pinhole_of_photograph(const photographs::Photograph& photograph) {
   Pinhole result;
   result.width = photograph.lens.width, result.height = photograph.lens.height;
   result.focal = glm::vec2(photographs::focal_px(photograph.lens));
@@ -86,7 +86,7 @@ Result<std::vector<TreeView>> read_capture(const std::filesystem::path& folder) 
     }
     if (const std::string problem = problem_of(photos[i], *picture); !problem.empty())
       own[i].push_back(error("{}: {}", photos[i].name, problem));
-    views[i] = {photos[i].name, pinhole_of(photos[i]), *std::move(picture)};
+    views[i] = {photos[i].name, pinhole_of_photograph(photos[i]), *std::move(picture)};
   });
   for (const Errors& errors : own) problems.insert(problems.end(), errors.begin(), errors.end());
   if (!problems.empty()) return problems;

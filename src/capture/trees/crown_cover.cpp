@@ -8,7 +8,7 @@
 namespace parvis::trees {
 namespace {
 
-constexpr float square_pixels = 4.0f;
+constexpr float square_side_px = 4.0f;
 constexpr int around_squares = 1;  // of what is visible: billboards that end at one line leave a bright seam
 constexpr float large_squares = 4.0f;  // a quarter of a billboard's area in squares: it is four squares wide
 
@@ -25,7 +25,7 @@ float opacity_at(glm::vec2 q, glm::vec4 slants, const OpacityMask& mask, glm::ve
 
 void CrownCover::begin(const render::View& view, float min_visible) {
   clip_from_world_ = view.clip_from_world, eye_ = view.position_in_world;
-  size_ = glm::ivec2(glm::ceil(glm::vec2(float(view.width), float(view.height)) / square_pixels));
+  size_ = glm::ivec2(glm::ceil(glm::vec2(float(view.width), float(view.height)) / square_side_px));
   touched_low_ = size_, touched_high_ = glm::ivec2(0);
   min_visible_ = min_visible;
   visible_.assign(std::size_t(size_.x) * std::size_t(size_.y), 1.0f);

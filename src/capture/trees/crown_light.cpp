@@ -14,7 +14,7 @@ namespace {
 
 constexpr float scattered =
     0.15f;  // of the light: leaves pass it on to each other, so that all get the mean of it
-constexpr float min_light = 1e-4f;
+constexpr float min_crown_light = 1e-4f;
 constexpr float step_deg = 4.0f;  // of the directions: closer ones share a result
 constexpr std::size_t max_kept = 512;
 
@@ -62,7 +62,7 @@ CrownLight crown_light(const std::vector<BillboardTree>& levels) {
   for (std::size_t level = 0; level < levels.size(); ++level)
     for (std::size_t i = 0; i < crown.albedo_factor[level].size(); ++i) {
       float& factor = crown.albedo_factor[level][i];  // still the share of the photographs' sun
-      factor = mean_albedo / std::max(light(factor, crown.sky[level][i]), min_light);
+      factor = mean_albedo / std::max(light(factor, crown.sky[level][i]), min_crown_light);
     }
   return crown;
 }

@@ -10,9 +10,10 @@
 namespace parvis::trees {
 namespace {
 
-constexpr int method_version = 2;  // to be raised whenever the same photographs and options give other cells
+constexpr int reconstruction_version =
+    2;  // to be raised whenever the same photographs and options give other cells
 
-void add(ContentHash& hash, const TreeView& view) {
+void add_named(ContentHash& hash, const TreeView& view) {
   hash.add_text(view.name), hash.add(view.camera);
   hash.add(view.picture.channels), hash.add(view.picture.pixels);
 }
@@ -25,8 +26,8 @@ bool are_finite(const std::vector<double>& values) {
 
 KeptSteps KeptSteps::of(std::span<const TreeView> views, const ReconstructionOptions& options) {
   ContentHash hash;
-  hash.add(method_version);
-  for (const TreeView& view : views) add(hash, view);
+  hash.add(reconstruction_version);
+  for (const TreeView& view : views) add_named(hash, view);
   hash.add(options.keeps_inconsistent);
   hash.add(options.grid.branching), hash.add(options.grid.level);
   hash.add(options.opacity.method), hash.add(options.opacity.clamps);

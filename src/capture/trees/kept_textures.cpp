@@ -8,7 +8,7 @@
 namespace parvis::trees {
 namespace {
 
-constexpr int method_version = 1;  // to be raised whenever the same input gives other textures
+constexpr int texture_version = 1;  // to be raised whenever the same input gives other textures
 const std::string side_part = "texels";
 
 std::string part_of(std::size_t photograph) { return fmt::format("photograph_{:04}", photograph); }
@@ -45,7 +45,7 @@ KeptTextures::KeptTextures(const KeptParts& checkpoint, const TreeVolume& volume
                            const TextureOptions& options)
     : checkpoint_(checkpoint) {
   ContentHash hash;
-  hash.add(method_version);
+  hash.add(texture_version);
   hash.add(volume.grid.box().min), hash.add(volume.grid.box().max);
   hash.add(volume.grid.branching()), hash.add(volume.grid.side()), hash.add(volume.grid.cells());
   hash.add(volume.extinction_per_m), hash.add(volume.colour);

@@ -15,18 +15,18 @@ using namespace parvis::shading;
 #include "capture/trees/leaf_detail.glsl"
 }  // namespace detail_math
 
-constexpr int side = LeafDetail::side;
-constexpr std::size_t texel_count = std::size_t(side) * side;
+constexpr int detail_side = LeafDetail::side;
+constexpr std::size_t texel_count = std::size_t(detail_side) * detail_side;
 constexpr int example_views = 4, example_px = 128;  // how many photographs, and what is taken of each
-constexpr int around = 4;                           // pixels to each side: what is coarser is no detail
-constexpr float min_alpha = 0.3f;                   // in the mean there: tree, and not its background
+constexpr int blur_radius = 4;                      // pixels to each side: what is coarser is no detail
+constexpr float min_leaf_alpha = 0.3f;              // in the mean there: tree, and not its background
 constexpr float min_brightness = 1e-4f;
 constexpr float opaque_alpha = 0.9f;  // of leaves before leaves: where contrast is measured
 constexpr int patch = 16, patch_step = 8;
 constexpr std::size_t min_patches = 16;
-constexpr float max_contrast = 0.35f;  // root of the mean square: beyond it gaps were taken for leaves
+constexpr float max_leaf_contrast = 0.35f;  // root of the mean square: beyond it gaps were taken for leaves
 
-float luminance(const float* rgba) { return 0.2126f * rgba[0] + 0.7152f * rgba[1] + 0.0722f * rgba[2]; }
+float luminance_of(const float* rgba) { return 0.2126f * rgba[0] + 0.7152f * rgba[1] + 0.0722f * rgba[2]; }
 
 /// How each pixel of a photograph differs from the mean around it.
 struct Example {
@@ -38,8 +38,8 @@ struct Example {
 
   explicit Example(const ImageF& picture) : width(picture.width), height(picture.height) {
     contrast.resize(std::size_t(width) * std::size_t(height)), is_known.resize(contrast.size());
-    for (int y = around; y < height - around; ++y)
-      for (int x = around; x < width - around; ++x) measure(picture, x, y);
+    for (int y = blur_radius; y < height - blur_radius; ++y)
+      for (int x = blur_radius; x < width - blur_radius; ++x) measure(picture, x, y);
     for (int y = 0; y + patch <= height; ++y)
       for (int x = 0; x + patch <= width; ++x)
         if (is_whole(x, y)) patches.emplace_back(x, y);
@@ -49,14 +49,14 @@ struct Example {
  private:
   void measure(const ImageF& picture, int x, int y) {
     float sum = 0.0f, alpha = 0.0f, min = 1.0f;
-    for (int v = -around; v <= around; ++v)
-      for (int u = -around; u <= around; ++u) {
+    for (int v = -blur_radius; v <= blur_radius; ++v)
+      for (int u = -blur_radius; u <= blur_radius; ++u) {
         const float* p = picture.at(x + u, y + v);
-        sum += luminance(p), alpha += p[3], min = std::min(min, p[3]);
+        sum += luminance_of(p), alpha += p[3], min = std::min(min, p[3]);
       }
-    constexpr float count = float((2 * around + 1) * (2 * around + 1));
-    if (alpha < min_alpha * count || sum < min_brightness * count) return;
-    const float value = luminance(picture.at(x, y)) * count / sum - 1.0f;
+    constexpr float count = float((2 * blur_radius + 1) * (2 * blur_radius + 1));
+    if (alpha < min_leaf_alpha * count || sum < min_brightness * count) return;
+    const float value = luminance_of(picture.at(x, y)) * count / sum - 1.0f;
     contrast[index(x, y)] = value, is_known[index(x, y)] = 1;
     if (min >= opaque_alpha) squares += double(value * value), opaque += 1.0;
   }
@@ -86,15 +86,16 @@ std::vector<float> blended_patches(const std::vector<Example>& examples, std::si
   for (std::size_t i = 0; i < patch; ++i)
     window[i] = 0.5f - 0.5f * std::cos(6.2831853f * (float(i) + 0.5f) / patch);
   std::vector<float> sums(texel_count, 0.0f), squares(texel_count, 0.0f);
-  for (int top = 0; top < side; top += patch_step)
-    for (int left = 0; left < side; left += patch_step) {
+  for (int top = 0; top < detail_side; top += patch_step)
+    for (int left = 0; left < detail_side; left += patch_step) {
       std::size_t number = std::size_t(random.index(int(patches)));
       auto example = examples.begin();
       while (number >= example->patches.size()) number -= example->patches.size(), ++example;
       const glm::ivec2 from = example->patches[number];
       for (int y = 0; y < patch; ++y)
         for (int x = 0; x < patch; ++x) {
-          const std::size_t to = std::size_t((top + y) % side) * side + std::size_t((left + x) % side);
+          const std::size_t to =
+              std::size_t((top + y) % detail_side) * detail_side + std::size_t((left + x) % detail_side);
           const float weight = window[std::size_t(x)] * window[std::size_t(y)];
           sums[to] += weight * example->contrast[example->index(from.x + x, from.y + y)];
           squares[to] += weight * weight;
@@ -125,7 +126,7 @@ void decorrelate(std::vector<float>& values, const std::vector<float>& other) {
 }  // namespace
 
 float LeafDetail::width_m() const {
-  return photographed_pixel_m * float(side) / detail_math::detail_texels_per_photographed_pixel;
+  return photographed_pixel_m * float(detail_side) / detail_math::detail_texels_per_photographed_pixel;
 }
 
 glm::vec2 LeafDetail::offset_of(std::size_t cell) {
@@ -135,9 +136,12 @@ glm::vec2 LeafDetail::offset_of(std::size_t cell) {
 }
 
 glm::vec2 LeafDetail::at(glm::vec2 place) const {
-  const glm::vec2 texel = float(side) * glm::fract(place) - 0.5f, low = glm::floor(texel), f = texel - low;
+  const glm::vec2 texel = float(detail_side) * glm::fract(place) - 0.5f, low = glm::floor(texel),
+                  f = texel - low;
   const auto value = [&](int x, int y) {
-    return glm::vec2(texels[std::size_t((y + side) % side) * side + std::size_t((x + side) % side)]) / 127.0f;
+    return glm::vec2(texels[std::size_t((y + detail_side) % detail_side) * detail_side +
+                            std::size_t((x + detail_side) % detail_side)]) /
+           127.0f;
   };
   const int x = int(low.x), y = int(low.y);
   return glm::mix(glm::mix(value(x, y), value(x + 1, y), f.x),
@@ -179,7 +183,8 @@ LeafDetail leaf_detail(const BillboardTree& tree, std::uint64_t seed) {
   std::vector<float> brightness = ranked(blended_patches(examples, patches, random));
   decorrelate(brightness, opacity);
   // Of values that are spread evenly over -1..1 the root of the mean square is 1 / sqrt(3).
-  const float contrast = opaque > 0.0 ? std::min(float(std::sqrt(squares / opaque)), max_contrast) : 0.0f;
+  const float contrast =
+      opaque > 0.0 ? std::min(float(std::sqrt(squares / opaque)), max_leaf_contrast) : 0.0f;
   const float factor = 127.0f * std::min(std::sqrt(3.0f) * contrast, 1.0f);
   for (std::size_t i = 0; i < texel_count; ++i)
     detail.texels.emplace_back(std::lround(127.0f * opacity[i]),

@@ -16,14 +16,14 @@
 namespace parvis::trees {
 namespace {
 
-constexpr int cluster_count = 8, cluster_steps = 8, max_samples = 20000;
+constexpr int cluster_count = 8, cluster_steps = 8, max_cluster_samples = 20000;
 constexpr float same_colour = 7.0f;        // LAB distance below which a pixel is of a plain background
 constexpr float min_other_colour = 34.0f;  // no pixel nearer than this is wholly foreground
 constexpr float other_share =
     0.85f;  // of the distance of the farthest tenth: beyond it pixels are foreground
 constexpr float min_border_share = 0.5f;
-constexpr float sky_step = 2.5f;    // LAB distance between neighbouring pixels of a sky
-constexpr float min_alpha = 0.02f;  // below it a pixel is background, above 1 - it foreground
+constexpr float sky_step = 2.5f;          // LAB distance between neighbouring pixels of a sky
+constexpr float min_matte_alpha = 0.02f;  // below it a pixel is background, above 1 - it foreground
 
 /// CIE LAB of sRGB (0..1), white point D65.
 glm::vec3 lab_of(glm::vec3 srgb) {
@@ -53,11 +53,11 @@ std::vector<Cluster> clusters_of(const Image8& photograph, const std::vector<glm
   for (std::size_t i = 0; i < zones.pixels.size(); ++i)
     if (zones.pixels[i] == zone) samples.push_back(i);
   Random random(1, 700);
-  if (samples.size() > std::size_t(max_samples)) {
-    for (int k = 0; k < max_samples; ++k)
+  if (samples.size() > std::size_t(max_cluster_samples)) {
+    for (int k = 0; k < max_cluster_samples; ++k)
       std::swap(samples[std::size_t(k)],
                 samples[std::size_t(k) + std::size_t(random.index(int(samples.size()) - k))]);
-    samples.resize(std::size_t(max_samples));
+    samples.resize(std::size_t(max_cluster_samples));
   }
   std::vector<Cluster> clusters;
   for (int k = 0; k < cluster_count; ++k) {
@@ -94,8 +94,8 @@ glm::vec4 unmixed(glm::vec3 colour, glm::vec3 lab, const std::vector<Cluster>& f
       if (distance < minimum) minimum = distance, alpha = share, front = &f, back = &b;
     }
   alpha = given.value_or(alpha);
-  if (alpha < min_alpha) return {front->srgb, 0.0f};
-  if (alpha > 1.0f - min_alpha) return {colour, 1.0f};
+  if (alpha < min_matte_alpha) return {front->srgb, 0.0f};
+  if (alpha > 1.0f - min_matte_alpha) return {colour, 1.0f};
   // The pair's foreground, moved so that mixing gives the pixel's own colour again.
   const glm::vec3 pure = back->srgb + (colour - back->srgb) / alpha;
   return {glm::clamp(glm::mix(front->srgb, pure, alpha), 0.0f, 1.0f), alpha};

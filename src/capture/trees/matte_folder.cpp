@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t record_version = 1;  // of the records' content
-constexpr int method_version = 1;            // to be raised whenever the same input gives another matte
+constexpr int matte_version = 1;             // to be raised whenever the same input gives another matte
 const std::string records = ".mattes";       // below the output
 
 /// The pictures of a folder, by name.
@@ -89,7 +89,7 @@ class MatteFile {
  private:
   Result<std::uint64_t> hash_of_sources() const {
     ContentHash hash;
-    hash.add(method_version), hash.add(folder_.method);
+    hash.add(matte_version), hash.add(folder_.method);
     for (const std::optional<fs::path>& file : {std::optional(photograph_), painted_}) {
       hash.add(file.has_value());
       if (!file) continue;

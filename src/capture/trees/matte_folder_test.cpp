@@ -11,14 +11,14 @@ namespace parvis::trees {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int size = 48;  // pixels
+constexpr int side_px = 48;  // pixels
 
 /// A green disc of a radius before a plain blue background.
 Image8 photograph(float radius) {
-  Image8 picture(size, size, 3);
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      const bool is_disc = glm::length(glm::vec2(float(x), float(y)) - 0.5f * float(size)) < radius;
+  Image8 picture(side_px, side_px, 3);
+  for (int y = 0; y < side_px; ++y)
+    for (int x = 0; x < side_px; ++x) {
+      const bool is_disc = glm::length(glm::vec2(float(x), float(y)) - 0.5f * float(side_px)) < radius;
       const glm::ivec3 colour = is_disc ? glm::ivec3(50, 100, 30) : glm::ivec3(150, 180, 235);
       for (int c = 0; c < 3; ++c) picture.at(x, y)[c] = std::uint8_t(colour[c]);
     }
@@ -27,12 +27,12 @@ Image8 photograph(float radius) {
 
 /// A red frame as wide as so many pixels, and a green middle.
 Image8 scribbles(int frame) {
-  Image8 picture(size, size, 4, 255);
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      const int to_edge = std::min({x, y, size - 1 - x, size - 1 - y});
+  Image8 picture(side_px, side_px, 4, 255);
+  for (int y = 0; y < side_px; ++y)
+    for (int x = 0; x < side_px; ++x) {
+      const int to_edge = std::min({x, y, side_px - 1 - x, side_px - 1 - y});
       if (to_edge < frame) picture.at(x, y)[1] = picture.at(x, y)[2] = 0;
-      if (to_edge > size / 2 - 4) picture.at(x, y)[0] = picture.at(x, y)[2] = 0;
+      if (to_edge > side_px / 2 - 4) picture.at(x, y)[0] = picture.at(x, y)[2] = 0;
     }
   return picture;
 }
@@ -95,13 +95,13 @@ TEST_F(MatteFolders, AMatteByAnotherMethodOrOfOtherZonesIsMadeAfresh) {
 
 TEST_F(MatteFolders, OneThatSomebodyPaintedIsKept) {
   expect_counts(2, 0, 0);
-  Image8 own(size, size, 4, 255);
+  Image8 own(side_px, side_px, 4, 255);
   own.at(3, 3)[3] = 0;
   ASSERT_TRUE(write_image(folder.output / "a.png", own).ok());
   expect_counts(0, 2, 0);  // of the same photograph as before
   paint("a.png", 16.0f);
   expect_counts(0, 1, 1);
-  EXPECT_EQ(opaque_pixels(folder.output / "a.png"), size * size - 1);
+  EXPECT_EQ(opaque_pixels(folder.output / "a.png"), side_px * side_px - 1);
   fs::remove(folder.output / "a.png");
   expect_counts(1, 1, 0);
 }

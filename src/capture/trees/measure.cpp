@@ -11,11 +11,11 @@ namespace {
 constexpr int slices = TreeOutline::slice_count, density_bands = 10;
 constexpr float crown_over_trunk = 2.5f;
 constexpr int trunk_slices = slices / 5;
-constexpr float sample_m = 0.02f;  // of triangles
-constexpr int max_samples = 60;    // along a triangle's side
+constexpr float sample_m = 0.02f;     // of triangles
+constexpr int max_side_samples = 60;  // along a triangle's side
 
 /// The trunk is the narrowest slice near the ground, the foot left out; above it the crown begins.
-TreeMeasures measured(const TreeOutline& outline) {
+TreeMeasures outline_measures(const TreeOutline& outline) {
   TreeMeasures result;
   if (outline.slices.empty()) return result;
   const float step = outline.slice_height_m();
@@ -85,7 +85,7 @@ bool is_there(const scene::Model& model, const scene::Material& material, glm::v
 
 TreeMeasures measured(const TreeVolume& volume, float min_alpha) {
   const TreeOutline outline = outline_of(volume, min_alpha);
-  TreeMeasures result = measured(outline);
+  TreeMeasures result = outline_measures(outline);
   if (outline.slices.empty()) return result;
   result.projected_area_m2 = 0.5f * (projected_area(volume, 0) + projected_area(volume, 1));
   result.leaf_area_density_per_m = leaf_area_density(volume, outline);
@@ -103,7 +103,7 @@ TreeMeasures measured(const scene::Model& model) {
       const bool has_uvs = mesh.uvs.size() == mesh.positions.size();
       // So densely that no slice misses a long triangle.
       const float edge = std::max(glm::distance(a, b), std::max(glm::distance(b, c), glm::distance(c, a)));
-      const int steps = std::clamp(int(std::ceil(edge / sample_m)), 1, max_samples);
+      const int steps = std::clamp(int(std::ceil(edge / sample_m)), 1, max_side_samples);
       for (int m = 0; m <= steps; ++m)
         for (int n = 0; n <= steps - m; ++n) {
           const float u = float(m) / float(steps), v = float(n) / float(steps);
@@ -114,7 +114,7 @@ TreeMeasures measured(const scene::Model& model) {
         }
     }
   }
-  return measured(outline_of(points));
+  return outline_measures(outline_of(points));
 }
 
 }  // namespace parvis::trees

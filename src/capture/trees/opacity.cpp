@@ -18,13 +18,13 @@
 namespace parvis::trees {
 namespace {
 
-constexpr float max_factor = 4.0f;          // of one multiplicative step
-constexpr float min_alpha = 1.0f / 510.0f;  // half a step of 8-bit alpha
-constexpr float min_start = 1e-3f;          // of alpha: what starts at 0 could never grow by multiplication
-constexpr int term_bits = 36;               // exact_sum.h: sums of up to 1e5 chords
+constexpr float max_factor = 4.0f;                // of one multiplicative step
+constexpr float min_chord_alpha = 1.0f / 510.0f;  // half a step of 8-bit alpha
+constexpr float min_start = 1e-3f;  // of alpha: what starts at 0 could never grow by multiplication
+constexpr int chord_bits = 36;      // exact_sum.h: sums of up to 1e5 chords
 constexpr double min_evidence =
     1e-8;  // chords of light: where less passes a cell no pixel shows what it holds
-constexpr int rows_per_task = 8;
+constexpr int chord_rows_per_task = 8;
 constexpr std::array thesis_cutoffs{0.85f, 0.9f, 0.94f, 0.97f, 0.985f, 1.0f};
 
 /// The cells of one ray.
@@ -46,8 +46,8 @@ struct RayCells {
 using Sums = std::vector<double>;
 
 void add(Sums& sums, std::size_t cell, float top, float bottom) {
-  sums[2 * cell] += exact_term<term_bits>(double(top));
-  sums[2 * cell + 1] += exact_term<term_bits>(double(bottom));
+  sums[2 * cell] += exact_term<chord_bits>(double(top));
+  sums[2 * cell + 1] += exact_term<chord_bits>(double(bottom));
 }
 
 /// A matte at the resolution of the estimate.
@@ -72,7 +72,7 @@ void add_projection(const Estimate& e, const RayCells& ray, float alpha, float i
   for (const std::uint32_t cell : ray.cells)
     if (e.tau[cell] > 0.0f) q_sum -= e.tau[cell] * e.chord_m, ++n;
   if (n == 0) return;
-  const float q_pixel = std::log(1.0f - std::clamp(alpha, 0.0f, 1.0f - min_alpha));
+  const float q_pixel = std::log(1.0f - std::clamp(alpha, 0.0f, 1.0f - min_chord_alpha));
   const float shift = (q_pixel - q_sum) / float(n);
   const glm::vec3 size = e.grid.cell_size_m();
   const float inverse_volume = 1.0f / (size.x * size.y * size.z);
@@ -94,7 +94,7 @@ void add_sirt(const Estimate& e, const RayCells& ray, float alpha, Sums& sums) {
   for (std::size_t k = 0; k < ray.cells.size(); ++k)
     depth += e.tau[ray.cells[k]] * ray.lengths_m[k], length += ray.lengths_m[k];
   if (length <= 0.0f) return;
-  const float residual = (-std::log(1.0f - std::clamp(alpha, 0.0f, 1.0f - min_alpha)) - depth) / length;
+  const float residual = (-std::log(1.0f - std::clamp(alpha, 0.0f, 1.0f - min_chord_alpha)) - depth) / length;
   for (std::size_t k = 0; k < ray.cells.size(); ++k)
     add(sums, ray.cells[k], ray.lengths_m[k] * residual, ray.lengths_m[k] / e.chord_m);
 }
@@ -138,7 +138,7 @@ Sums gather(const Estimate& e, std::span<const Matte> mattes) {
             }
           }
         },
-        rows_per_task);
+        chord_rows_per_task);
   }
   Sums all(2 * e.tau.size(), 0.0);
   for (const Sums& sums : partial)
@@ -159,7 +159,7 @@ double update_cells(const Estimate& e, const Sums& sums) {
       case OpacityMethod::projection: {
         const float t =
             before + float(top / bottom);  // above 1 without the clamp: negative extinction, as printed
-        e.tau[i] = -std::log(std::max(t, min_alpha)) / e.chord_m;
+        e.tau[i] = -std::log(std::max(t, min_chord_alpha)) / e.chord_m;
         break;
       }
       case OpacityMethod::sirt:
@@ -203,7 +203,7 @@ std::vector<float> initial_extinction(const CellGrid& grid, std::span<const Silh
         float alpha = 1.0f;
         for (const Silhouette& silhouette : silhouettes)
           alpha = std::min(alpha, silhouette.mean_alpha(grid.bounds(cell)));
-        tau[cell] = -std::log(1.0f - std::clamp(alpha, min_start, 1.0f - min_alpha)) / chord_m;
+        tau[cell] = -std::log(1.0f - std::clamp(alpha, min_start, 1.0f - min_chord_alpha)) / chord_m;
       },
       256);
   return tau;

@@ -11,11 +11,12 @@
 namespace parvis::trees {
 namespace {
 
-constexpr int size = 56;
+constexpr int photo_side = 56;
 
 /// Held-out error of a method on the ball of sparse cells, its grid found from the views alone.
 struct Judged {
-  std::vector<TreeView> views = TestVolume().ring(16, size), held_out = TestVolume().ring(4, size, 0.17f);
+  std::vector<TreeView> views = TestVolume().ring(16, photo_side),
+                        held_out = TestVolume().ring(4, photo_side, 0.17f);
   std::vector<Silhouette> masks = silhouettes(views);
   CellGrid grid = *hull_grid(views, masks, *hull_box(views, masks), {3, 3});
 
@@ -57,7 +58,7 @@ TEST(Opacity, OneCellOfKnownExtinctionIsFoundAgain) {
   const Bounds box{{-0.5f, -0.5f, 0.5f}, {0.5f, 0.5f, 1.5f}};
   TestVolume volume(1, 2.0f, 1.5f);
   volume.grid = CellGrid(box, 3, 1, {{0, 0, 0}}), volume.extinction_per_m = {1.5f};
-  const std::vector<TreeView> views = volume.ring(6, size);
+  const std::vector<TreeView> views = volume.ring(6, photo_side);
   const std::vector<Silhouette> masks = silhouettes(views);
   for (const OpacityMethod method : {OpacityMethod::sirt, OpacityMethod::multiplicative}) {
     OpacityOptions options;

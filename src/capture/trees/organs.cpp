@@ -18,7 +18,7 @@ constexpr int ratio_bins = 128;
 constexpr float min_separation = 0.16f;      // of the two classes' means: below it the tree is of one kind
 constexpr float min_leaf_log_ratio = 0.08f;  // bark that the sky lights is bluish, but not greener than this
 constexpr float leaf_log_ratio = 0.12f;      // where there is one class alone: leaves are greener than this
-constexpr float foot_share = 0.03f;          // of the height: where the trunk is looked for first
+constexpr float trunk_foot_share = 0.03f;    // of the height: where the trunk is looked for first
 constexpr float search_radii = 1.7f;         // round the axis, in radii of the ring below
 constexpr float min_filled = 0.35f;          // of a disc's area: less is no trunk
 constexpr float max_widening = 1.06f;        // of a ring over the narrowest below
@@ -84,7 +84,7 @@ Trunk trunk_of(const TreeVolume& volume, float leaf_threshold) {
   const glm::vec3 size = volume.grid.cell_size_m();
   const float cell_m = std::max(size.x, size.y);
   const int lowest = layers.begin()->first, highest = layers.rbegin()->first;
-  const int foot = lowest + std::max(1, int(foot_share * float(highest - lowest)));
+  const int foot = lowest + std::max(1, int(trunk_foot_share * float(highest - lowest)));
   float narrowest = 1e30f;
   for (const auto& [layer, wood] : layers) {
     if (layer < foot) continue;

@@ -9,7 +9,7 @@
 namespace parvis::trees {
 namespace {
 
-const glm::vec3 bark(0.12f, 0.08f, 0.05f), green(0.05f, 0.11f, 0.03f);
+const glm::vec3 bark(0.12f, 0.08f, 0.05f), leaf_green(0.05f, 0.11f, 0.03f);
 constexpr float trunk_radius_m = 0.06f, crown_from_m = 0.45f;
 
 /// A column of bark with a ball of leaves round its upper half, and a branch out of it.
@@ -36,7 +36,7 @@ TreeVolume column_and_ball(glm::vec3 leaf_colour) {
 }
 
 TEST(Organs, AreDistinguishedByColourAndPlace) {
-  const TreeVolume volume = column_and_ball(green);
+  const TreeVolume volume = column_and_ball(leaf_green);
   const Organs organs = organs_of(volume);
   std::size_t right = 0;
   for (std::size_t i = 0; i < volume.grid.size(); ++i) {
@@ -53,7 +53,7 @@ TEST(Organs, AreDistinguishedByColourAndPlace) {
 }
 
 TEST(Organs, TheTrunkIsFollowedFromTheFoot) {
-  const Trunk trunk = organs_of(column_and_ball(green)).trunk;
+  const Trunk trunk = organs_of(column_and_ball(leaf_green)).trunk;
   ASSERT_GE(trunk.rings.size(), 10u);
   for (const Trunk::Ring& ring : trunk.rings) {
     EXPECT_LT(glm::length(glm::vec2(ring.centre)), 0.03f);
@@ -65,7 +65,7 @@ TEST(Organs, TheTrunkIsFollowedFromTheFoot) {
 }
 
 TEST(Organs, ABareTreeHasNoLeaves) {
-  TreeVolume volume = column_and_ball(green);
+  TreeVolume volume = column_and_ball(leaf_green);
   for (glm::vec3& colour : volume.colour) colour = bark;
   const Organs organs = organs_of(volume);
   EXPECT_EQ(organs.share(volume, Organ::leaf), 0.0f);
@@ -73,15 +73,15 @@ TEST(Organs, ABareTreeHasNoLeaves) {
 }
 
 TEST(Organs, ACrownOnTheGroundHasNoTrunk) {
-  TreeVolume volume = column_and_ball(green);
-  for (glm::vec3& colour : volume.colour) colour = green;
+  TreeVolume volume = column_and_ball(leaf_green);
+  for (glm::vec3& colour : volume.colour) colour = leaf_green;
   const Organs organs = organs_of(volume);
   EXPECT_TRUE(organs.trunk.rings.empty());
   EXPECT_FALSE(trunk_shape(organs, {}));
 }
 
 TEST(Organs, WithoutTheTrunkTheRestIsLeft) {
-  const TreeVolume volume = column_and_ball(green);
+  const TreeVolume volume = column_and_ball(leaf_green);
   const Organs organs = organs_of(volume);
   const TreeVolume rest = without(volume, organs, Organ::trunk);
   EXPECT_EQ(rest.grid.size(), std::size_t(std::ranges::count_if(
@@ -114,7 +114,7 @@ TEST(Organs, TheTrunkShowsItsPhotographs) {
 }
 
 TEST(Organs, AnErasedTrunkLeavesItsLeavesAndWhatIsBesideIt) {
-  const TreeVolume volume = column_and_ball(green);
+  const TreeVolume volume = column_and_ball(leaf_green);
   const Organs organs = organs_of(volume);
   std::vector<TreeView> views = TestVolume().ring(8, 64);
   const glm::vec3 of_trunk(0.0f, 0.0f, 0.5f);

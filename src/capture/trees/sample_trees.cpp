@@ -11,7 +11,7 @@
 namespace parvis::trees {
 namespace {
 
-constexpr int bark = 0, leaves = 1;  // materials of the house's trees
+constexpr int bark_material = 0, leaf_material = 1;  // materials of the house's trees
 
 struct Kind {
   city::Species species;
@@ -118,11 +118,13 @@ Result<scene::Model> make_sample_tree(std::string_view name, std::uint64_t seed)
 
   scene::Model model = city::make_tree(1, seed);  // for its bark and leaves
   model.name = std::string(name), model.parts.clear();
-  model.materials[bark].base_colour *= kind.bark_tint, model.materials[leaves].base_colour *= kind.leaf_tint;
-  add_part(model, "wood", std::move(wood), bark);
+  model.materials[bark_material].base_colour *= kind.bark_tint,
+      model.materials[leaf_material].base_colour *= kind.leaf_tint;
+  add_part(model, "wood", std::move(wood), bark_material);
   if (kind.sprays.count > 0)
     add_part(model, "foliage",
-             city::foliage(tree, kind.sprays, {0.0f, 0.0f, 0.55f * kind.species.height_m}, random), leaves);
+             city::foliage(tree, kind.sprays, {0.0f, 0.0f, 0.55f * kind.species.height_m}, random),
+             leaf_material);
   if (kind.fruits > 0) {
     scene::Material orange;
     orange.name = "fruit", orange.base_colour = linear_from_srgb8(0xF0, 0x80, 0x10), orange.roughness = 0.5f;

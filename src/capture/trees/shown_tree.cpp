@@ -10,7 +10,6 @@
 namespace parvis::trees {
 namespace {
 
-constexpr float pi = 3.14159265f;
 constexpr float backdrop_depth = 1e-6f;  // reversed: just before the sky
 constexpr int sky_width = 128;           // pixels round the horizon; the sums over a coarser sky are inexact
 
@@ -31,7 +30,7 @@ Camera camera_of(const Pinhole& pinhole) {
 scene::Scene scene_in_light_of(const CapturedLight& light) {
   scene::Scene scene;
   scene.sun.direction_to_sun = light.to_sun;
-  scene.sun.irradiance = glm::vec3(pi * light.sun / mean_albedo);
+  scene.sun.irradiance = glm::vec3(glm::pi<float>() * light.sun / mean_albedo);
   scene.sky.picture = ImageF(sky_width, sky_width / 2, 3);
   std::ranges::fill(scene.sky.picture.pixels, light.sky / mean_albedo);
   return scene;

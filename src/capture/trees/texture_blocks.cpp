@@ -9,7 +9,7 @@
 namespace parvis::trees {
 namespace {
 
-constexpr int power_steps = 6;  // of the power iteration for the principal axis
+constexpr int axis_steps = 6;  // of the power iteration for the principal axis
 
 std::uint16_t packed565(glm::vec3 c) {
   const glm::ivec3 v(glm::round(glm::clamp(c, 0.0f, 255.0f) * glm::vec3(31.0f, 63.0f, 31.0f) / 255.0f));
@@ -60,7 +60,7 @@ std::array<glm::vec3, 2> principal_ends(const Colours& colours) {
     covariance += colours.weight[i] * glm::outerProduct(d, d);
   }
   glm::vec3 axis(0.58f, 0.6f, 0.55f);
-  for (int i = 0; i < power_steps; ++i) {
+  for (int i = 0; i < axis_steps; ++i) {
     const glm::vec3 next = covariance * axis;
     if (glm::length(next) < 1e-6f) break;
     axis = glm::normalize(next);
@@ -90,7 +90,7 @@ std::array<glm::vec3, 2> refined_ends(const Colours& colours, std::uint32_t indi
   return {(bb * ax - ab * bx) / determinant, (aa * bx - ab * ax) / determinant};
 }
 
-float error(const Colours& colours, const Palette& steps, std::uint32_t indices) {
+float squared_error(const Colours& colours, const Palette& steps, std::uint32_t indices) {
   float sum = 0.0f;
   for (std::size_t i = 0; i < 16; ++i) {
     const glm::vec3 d = colours.colour[i] - steps[indices >> (2 * i) & 3u];
@@ -141,8 +141,8 @@ TextureBlock compressed_block(const BlockTexels& texels) {
   ends = refined_ends(colours, indices, ends);
   const std::array<std::uint16_t, 2> again{packed565(ends[0]), packed565(ends[1])};
   const std::uint32_t other = nearest_indices(colours, palette(again[0], again[1]));
-  if (error(colours, palette(again[0], again[1]), other) <
-      error(colours, palette(packed[0], packed[1]), indices))
+  if (squared_error(colours, palette(again[0], again[1]), other) <
+      squared_error(colours, palette(packed[0], packed[1]), indices))
     packed = again, indices = other;
   for (std::size_t i = 0; i < 2; ++i)
     block[8 + 2 * i] = std::uint8_t(packed[i] & 255), block[9 + 2 * i] = std::uint8_t(packed[i] >> 8);

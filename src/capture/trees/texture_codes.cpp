@@ -20,8 +20,8 @@
 namespace parvis::trees {
 namespace {
 
-constexpr int power_steps = 4;  // of the power iteration for a set's principal axis
-constexpr int lloyd_steps = 6;  // that a set is divided by
+constexpr int set_axis_steps = 4;  // of the power iteration for a set's principal axis
+constexpr int lloyd_steps = 6;     // that a set is divided by
 constexpr int texels_per_block = 16;
 
 /// A block's texels, premultiplied sRGB and alpha, 0..1.
@@ -121,7 +121,7 @@ class Codes {
     Vector axis{};
     add_scaled(axis, vectors_[order_[whole.first]], 1.0f), add_scaled(axis, whole.mean, -1.0f);
     for (glm::vec4& part : axis) part += 1e-3f;  // a start that hardly any set is at right angles to
-    for (int step = 0; step < power_steps; ++step) {
+    for (int step = 0; step < set_axis_steps; ++step) {
       Vector next{};
       for (const std::uint32_t i : members(whole)) {
         Vector off = vectors_[i];

@@ -23,7 +23,7 @@ using namespace parvis::shading;
 #include "capture/trees/foliage.glsl"
 }  // namespace foliage
 
-constexpr float far_m = 1e5f;  // an eye there sees a tree as the sun does
+constexpr float sun_distance_m = 1e5f;  // an eye there sees a tree as the sun does
 
 /// The boxes of all cells, 12 triangles each, in the tree's frame.
 Mesh boxes_of(const CellGrid& grid) {
@@ -108,7 +108,8 @@ class TreeSurface final : public scene::TracedSurface {
     const glm::vec3 centre = shown.grid.centre(cell);
     // A cell is so small that all of it is seen from one direction.
     const glm::vec3 to_eye = glm::normalize(glm::mat3(tree_from_world_) * hit.to_viewer);
-    const BillboardFrame frame = billboard_frame(centre, shown.grid.cell_size_m(), centre + far_m * to_eye);
+    const BillboardFrame frame =
+        billboard_frame(centre, shown.grid.cell_size_m(), centre + sun_distance_m * to_eye);
     const glm::vec3 off = at - centre;
     const glm::vec2 place = glm::clamp(
         glm::vec2(glm::dot(off, frame.right), glm::dot(off, frame.up)) / frame.half_size_m, -1.0f, 1.0f);

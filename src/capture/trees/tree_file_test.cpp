@@ -94,11 +94,11 @@ TEST(TreeFile, AsGltfItIsAModelForOthersAndTheSameTreeForUs) {
   ASSERT_TRUE(write_tree(folder.path() / "a.tree", tree).ok());
   ASSERT_TRUE(write_tree(folder.path() / "a.glb", tree).ok());
   const Result<BillboardTree> again = read_tree(folder.path() / "a.glb"),
-                              plain = read_tree(folder.path() / "a.tree");
+                              plain_kind = read_tree(folder.path() / "a.tree");
   ASSERT_TRUE(again.ok()) << to_string(again.errors());
-  EXPECT_EQ(again->grid.cells(), plain->grid.cells());
+  EXPECT_EQ(again->grid.cells(), plain_kind->grid.cells());
   for (std::size_t v = 0; v < tree.views.size(); ++v)
-    EXPECT_EQ(again->views[v].texels, plain->views[v].texels);
+    EXPECT_EQ(again->views[v].texels, plain_kind->views[v].texels);
   Errors warnings;
   const Result<scene::Model> model = scene::read_gltf(folder.path() / "a.glb", warnings);
   ASSERT_TRUE(model.ok()) << to_string(model.errors());
@@ -180,7 +180,7 @@ TEST(TreeFile, ReturnsVolumes) {
   EXPECT_EQ(again->grid.cells(), volume.grid.cells());
 }
 
-constexpr SealedKind plain{"PVTREE_2", "captured tree"}, coded{"PVTREE_3", "captured tree"};
+constexpr SealedKind plain_kind{"PVTREE_2", "captured tree"}, coded_kind{"PVTREE_3", "captured tree"};
 
 /// The same with noise: no two blocks are alike, so that the file has no table of blocks.
 BillboardTree noisy_tree() {
@@ -194,7 +194,8 @@ BillboardTree noisy_tree() {
 TEST(TreeFile, EveryShorterFileIsRefused) {
   const TestFolder folder;
   const std::filesystem::path file = folder.path() / "a.tree";
-  for (const auto& [kind, tree] : {std::pair{plain, noisy_tree()}, std::pair{coded, random_tree()}}) {
+  for (const auto& [kind, tree] :
+       {std::pair{plain_kind, noisy_tree()}, std::pair{coded_kind, random_tree()}}) {
     ASSERT_TRUE(write_tree(file, tree).ok());
     const std::string content = *read_sealed(file, kind);
     for (std::size_t size = 0; size < content.size(); size += 1 + size / 20) {
@@ -207,7 +208,8 @@ TEST(TreeFile, EveryShorterFileIsRefused) {
 TEST(TreeFile, RefusesImpossibleGridsAndCounts) {
   const TestFolder folder;
   const std::filesystem::path file = folder.path() / "a.tree";
-  for (const auto& [kind, tree] : {std::pair{plain, noisy_tree()}, std::pair{coded, random_tree()}}) {
+  for (const auto& [kind, tree] :
+       {std::pair{plain_kind, noisy_tree()}, std::pair{coded_kind, random_tree()}}) {
     ASSERT_TRUE(write_tree(file, tree).ok());
     const std::string content = *read_sealed(file, kind);
     // Offsets: box 24 bytes, branching, side, texels, cell count, cells.
@@ -227,11 +229,11 @@ TEST(TreeFile, RefusesNumbersOfBlocksBeyondTheirTable) {
   const std::filesystem::path file = folder.path() / "a.tree";
   const BillboardTree tree = random_tree();
   ASSERT_TRUE(write_tree(file, tree).ok());
-  const std::string content = *read_sealed(file, coded);
+  const std::string content = *read_sealed(file, coded_kind);
   // The numbers of the last view are the last bytes.
   std::string damaged = content;
   damaged[damaged.size() - 1] = damaged[damaged.size() - 2] = '\xff';
-  ASSERT_TRUE(write_sealed(file, coded, damaged).ok());
+  ASSERT_TRUE(write_sealed(file, coded_kind, damaged).ok());
   const Result<BillboardTree> beyond = read_tree(file);
   ASSERT_FALSE(beyond.ok());
   EXPECT_NE(to_string(beyond.errors()).find("beyond its table"), std::string::npos)
@@ -242,7 +244,7 @@ TEST(TreeFile, RefusesNumbersOfBlocksBeyondTheirTable) {
     damaged = content;
     damaged.replace(table, 4, reinterpret_cast<const char*>(&count), 4);
     if (count == 65537u) damaged.insert(table + 4, std::size_t(count) * block_bytes, '\0');
-    ASSERT_TRUE(write_sealed(file, coded, damaged).ok());
+    ASSERT_TRUE(write_sealed(file, coded_kind, damaged).ok());
     const Result<BillboardTree> refused = read_tree(file);
     ASSERT_FALSE(refused.ok()) << count;
     if (count == 65537u) {
@@ -262,8 +264,8 @@ TEST(TreeFile, TheFuzzersSeedsReachTheEndOfTheReaders) {
     const std::string name = entry.path().filename().string();
     const bool is_volume = name.starts_with("volume");
     const SealedKind kind = is_volume                   ? SealedKind{"PVTVOL_2", "tree volume"}
-                            : name.starts_with("coded") ? coded
-                                                        : plain;
+                            : name.starts_with("coded") ? coded_kind
+                                                        : plain_kind;
     ASSERT_TRUE(write_sealed(file, kind, content).ok());
     EXPECT_TRUE(is_volume ? read_volume(file).ok() : read_tree(file).ok()) << entry.path();
     ++seeds;

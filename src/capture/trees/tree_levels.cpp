@@ -16,9 +16,9 @@
 namespace parvis::trees {
 namespace {
 
-constexpr int max_texels_per_side = 128;
-constexpr float off_middle = 0.25f;  // of the box's diagonal: where a tree's leaves are, in the mean
-constexpr float foot_share = 0.06f;  // of the height: what of the tree is near the ground
+constexpr int max_level_texels_per_side = 128;
+constexpr float off_middle = 0.25f;    // of the box's diagonal: where a tree's leaves are, in the mean
+constexpr float ground_share = 0.06f;  // of the height: what of the tree is near the ground
 
 /// Cells of a coarser grid and the finer cells that each stands for.
 struct Parents {
@@ -148,7 +148,7 @@ glm::vec3 foot_of(const BillboardTree& tree) {
   float weight = 1e-6f;
   for (std::size_t i = 0; i < tree.grid.size(); ++i) {
     const glm::vec3 centre = tree.grid.centre(i);
-    if (centre.z > lowest + foot_share * (highest - lowest)) continue;
+    if (centre.z > lowest + ground_share * (highest - lowest)) continue;
     sum += float(tree.base[i].w) * centre, weight += float(tree.base[i].w);
   }
   return {sum.x / weight, sum.y / weight, lowest - 0.5f * tree.grid.cell_size_m().z};
@@ -167,7 +167,7 @@ BillboardTree coarser(const BillboardTree& tree) {
   BillboardTree result;
   result.grid = CellGrid(tree.grid.box(), branching, tree.grid.side() / branching, parents.cells);
   result.light = tree.light;
-  result.texels_per_side = std::min(branching * tree.texels_per_side, max_texels_per_side);
+  result.texels_per_side = std::min(branching * tree.texels_per_side, max_level_texels_per_side);
   for (const auto& parts : parents.parts) result.base.push_back(base_of(tree, parts));
   result.views.resize(tree.views.size());
   parallel_for(tree.views.size(),

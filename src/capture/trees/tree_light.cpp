@@ -15,13 +15,12 @@ constexpr int sky_rows = 3, sky_columns = 8;  // directions of the sky
 constexpr int azimuths = 24;                  // of the search for the sun
 constexpr std::array heights_deg{15.0f, 30.0f, 45.0f, 60.0f};
 constexpr std::array refinements_deg{7.5f, 3.75f, 2.0f};
-constexpr float pi = 3.14159265f;
 
 glm::vec3 direction_of(float azimuth, float height) {
   return {std::sin(azimuth) * std::cos(height), std::cos(azimuth) * std::cos(height), std::sin(height)};
 }
 
-float luminance(glm::u8vec4 srgb) {
+float luminance_of_srgb(glm::u8vec4 srgb) {
   return glm::dot(linear_from_srgb(glm::vec3(srgb) / 255.0f), glm::vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
@@ -81,8 +80,9 @@ std::vector<glm::vec3> sky_directions() {
   std::vector<glm::vec3> directions;
   for (int row = 0; row < sky_rows; ++row)
     for (int column = 0; column < sky_columns; ++column)
-      directions.push_back(direction_of(2.0f * pi * (float(column) + 0.5f * float(row)) / sky_columns,
-                                        std::asin((float(row) + 0.5f) / sky_rows)));
+      directions.push_back(
+          direction_of(2.0f * glm::pi<float>() * (float(column) + 0.5f * float(row)) / sky_columns,
+                       std::asin((float(row) + 0.5f) / sky_rows)));
   return directions;
 }
 
@@ -102,7 +102,7 @@ std::vector<float> sky_visibility(const BillboardTree& tree) {
 
 CapturedLight estimated_light(const BillboardTree& tree, std::optional<glm::vec3> to_sun) {
   std::vector<float> brightness;
-  for (const glm::u8vec4 base : tree.base) brightness.push_back(luminance(base));
+  for (const glm::u8vec4 base : tree.base) brightness.push_back(luminance_of_srgb(base));
   const std::vector<float> sky = sky_visibility(tree);
   const CrownShade shade(tree);
   CapturedLight best;
@@ -117,7 +117,7 @@ CapturedLight estimated_light(const BillboardTree& tree, std::optional<glm::vec3
   }
   for (const float height : heights_deg)
     for (int i = 0; i < azimuths; ++i)
-      attempt(direction_of(2.0f * pi * float(i) / azimuths, glm::radians(height)));
+      attempt(direction_of(2.0f * glm::pi<float>() * float(i) / azimuths, glm::radians(height)));
   for (const float step : refinements_deg) {
     const float azimuth = std::atan2(best.to_sun.x, best.to_sun.y), height = std::asin(best.to_sun.z);
     for (const glm::vec2 off : {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1)})

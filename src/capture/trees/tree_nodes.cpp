@@ -14,11 +14,10 @@
 namespace parvis::trees {
 namespace {
 
-using namespace scene::attribute;
-
 using scene::Node, scene::SceneBuilder;
 
 scene::NodeSchema tree_schema() {
+  using namespace scene::attribute;
   scene::NodeSchema schema{
       .type = "tree",
       .help =

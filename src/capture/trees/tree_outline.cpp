@@ -11,7 +11,7 @@ namespace parvis::trees {
 namespace {
 
 constexpr int half_turn = TreeSlice::directions / 2;
-constexpr float pi = 3.14159265f, far_m = 1e6f;
+constexpr float far_m = 1e6f;
 
 int slice_at(const TreeOutline& outline, float z) {
   return std::clamp(int((z - outline.foot_m) / outline.slice_height_m()), 0, TreeOutline::slice_count - 1);
@@ -69,7 +69,7 @@ void set_heights(TreeOutline& outline, const CellGrid& grid, const std::vector<f
 }  // namespace
 
 glm::vec2 TreeSlice::direction(int index) {
-  const float angle = 2.0f * pi * float(index) / directions;
+  const float angle = 2.0f * glm::pi<float>() * float(index) / directions;
   return {std::cos(angle), std::sin(angle)};
 }
 

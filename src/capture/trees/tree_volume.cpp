@@ -21,17 +21,17 @@ constexpr float opaque_enough = 1e-3f;  // of the light: what lies behind is not
 constexpr float max_depth_per_cell =
     12.0f;                           // optical, along the mean chord: more is not distinguishable from opaque
 constexpr float rate_decay = 0.25f;  // of the steps, per pass
-constexpr int term_bits = 30;        // exact_sum.h: gradients of up to 8e6
+constexpr int gradient_bits = 30;    // exact_sum.h: gradients of up to 8e6
 const glm::vec3 unseen_colour(0.03f, 0.05f, 0.02f);  // of cells that no photograph shows: a leaf in the shade
 constexpr float beta1 = 0.9f, beta2 = 0.98f, adam_epsilon = 1e-7f;
 
-constexpr float min_light = 0.01f;  // below it the slope of sRGB is taken as there
-constexpr float min_root = 0.03f;   // of a colour's light: from 0 no step leads away
+constexpr float min_slope_light = 0.01f;  // below it the slope of sRGB is taken as there
+constexpr float min_root = 0.03f;         // of a colour's light: from 0 no step leads away
 
 /// By how much a display magnifies an error of light: the slope of sRGB where the pixel's light stands before
 /// grey; alpha counts as it is.
 glm::vec4 display_slope(glm::vec4 rgba) {
-  const glm::vec3 light = glm::max(glm::vec3(rgba) + 0.5f * (1.0f - rgba.w), min_light);
+  const glm::vec3 light = glm::max(glm::vec3(rgba) + 0.5f * (1.0f - rgba.w), min_slope_light);
   return glm::vec4((1.055f / 2.4f) * glm::pow(light, glm::vec3(1.0f / 2.4f - 1.0f)), 1.0f);
 }
 
@@ -76,7 +76,7 @@ double add_pixel(const TreeVolume& volume, const std::vector<Crossing>& crossing
     const glm::vec4 by_extinction = c.length_m * (c.before * c.kept * colour - behind);
     const glm::vec4 gradient(weight * glm::vec3(residual),
                              volume.extinction_per_m[c.cell] * glm::dot(by_extinction, residual));
-    gradients[c.cell] += exact_term<term_bits>(glm::dvec4(gradient));
+    gradients[c.cell] += exact_term<gradient_bits>(glm::dvec4(gradient));
   }
   return double(glm::dot(error, error));
 }
@@ -228,7 +228,7 @@ TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::spa
                                  1.0f);
             collect(volume, view.camera.ray({float(x) + 0.5f, float(row) + 0.5f}), crossings);
             for (const Crossing& c : crossings)
-              sums[c.cell] += exact_term<term_bits>(
+              sums[c.cell] += exact_term<gradient_bits>(
                   glm::dvec4(c.before * (1.0f - c.kept + 1e-4f) * (float(p[3]) / 255.0f) * seen));
           }
         },

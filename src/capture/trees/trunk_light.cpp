@@ -14,7 +14,6 @@ namespace {
 constexpr int sides = 16;                 // round the trunk, where light is found; linear between them
 constexpr float off_bark = 1.05f;         // radii: before the bark
 constexpr float min_light_share = 0.25f;  // of the trunk's mean light: what is darker is not made brighter
-constexpr float turn = 6.2831853f;
 
 /// The light of the photographs for each ring and side, as the brightness of a leaf in it.
 std::vector<float> light_on(const Trunk& trunk, const BillboardTree& tree) {
@@ -23,7 +22,7 @@ std::vector<float> light_on(const Trunk& trunk, const BillboardTree& tree) {
   std::vector<float> light(trunk.rings.size() * sides);
   parallel_for(light.size(), [&](std::size_t i) {
     const Trunk::Ring& ring = trunk.rings[i / sides];
-    const float angle = turn * float(i % sides) / sides;
+    const float angle = glm::two_pi<float>() * float(i % sides) / sides;
     const glm::vec3 normal(std::cos(angle), std::sin(angle), 0.0f);
     const glm::vec3 point = ring.centre + off_bark * ring.radius_m * normal;
     const auto received = [&](glm::vec3 direction) {

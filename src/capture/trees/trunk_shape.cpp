@@ -12,7 +12,6 @@ namespace {
 constexpr int ring_sides = 24;
 constexpr std::size_t max_rings = 4096;
 constexpr int max_bark_side = 2048;
-constexpr float turn = 6.2831853f;
 
 /// Calls visit(x, y) for the first texel of each 4x4 block of a picture.
 template <class Visit>
@@ -68,7 +67,7 @@ scene::Model model_of(const TrunkShape& shape) {
   const float foot = rings.front().centre.z, height = rings.back().centre.z - foot;
   for (const Trunk::Ring& ring : rings)
     for (int side = 0; side <= ring_sides; ++side) {
-      const float angle = turn * float(side) / ring_sides;
+      const float angle = glm::two_pi<float>() * float(side) / ring_sides;
       const glm::vec3 normal(std::cos(angle), std::sin(angle), 0.0f);
       mesh.positions.push_back(ring.centre + ring.radius_m * normal);
       mesh.normals.push_back(normal);

@@ -17,9 +17,8 @@
 namespace parvis::view_dependent_objects {
 namespace {
 
-using namespace scene::attribute;
-
 scene::NodeSchema vdobject_schema() {
+  using namespace scene::attribute;
   scene::NodeSchema schema{
       .type = "vdobject",
       .help =

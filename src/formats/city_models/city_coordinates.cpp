@@ -11,7 +11,7 @@ namespace {
 constexpr double max_longitude_deg = 180.0;
 constexpr double max_region_m = 100'000.0;  // no city is so wide, and floats end at centimetres there
 /// Without a name, degrees are what spans less than a town does and is higher than it is wide.
-constexpr double narrow_deg = 0.2, high_m = 2.0;
+constexpr double narrow_deg = 0.2, high_building_m = 2.0;
 constexpr double majority = 0.5;  // of their area, that face one way rather than the other
 /// From a map's origin: nearer to it coordinates are about an origin of the file's own, whatever it names.
 constexpr double off_origin_m = 1000.0;
@@ -144,7 +144,7 @@ Result<CityCoordinates> CityCoordinates::find(const CoordinateClues& clues, cons
   }
   const bool is_named = system || names_longitude_first(clues.system);
   const bool looks_like_degrees =
-      std::max(size.x, size.y) < narrow_deg && clues.high.z - clues.low.z > high_m;
+      std::max(size.x, size.y) < narrow_deg && clues.high.z - clues.low.z > high_building_m;
   const bool can_be_north_first = can_be_degrees(clues, true),
              can_be_east_first = can_be_degrees(clues, false);
   // Without a name the order has to follow from the coordinates, or the assembly refuses them.

@@ -28,23 +28,23 @@ Found find(const CoordinateClues& clues) {
   return {std::move(coordinates), to_string(warnings)};
 }
 
-constexpr glm::dvec2 tokyo_deg{139.77, 35.68}, delft_deg{4.36, 52.01};  // east, north
+constexpr glm::dvec2 in_tokyo_deg{139.77, 35.68}, delft_deg{4.36, 52.01};  // east, north
 
 glm::dvec2 on_map(glm::dvec2 deg) { return MapProjection::utm(deg)(deg); }
 
 TEST(CityCoordinates, DegreesOfJapanStandOnTheMapOfOpenStreetMap) {
   const Found found =
-      find(town_at("http://www.opengis.net/def/crs/EPSG/0/6697", {tokyo_deg.y, tokyo_deg.x}, 0.01));
+      find(town_at("http://www.opengis.net/def/crs/EPSG/0/6697", {in_tokyo_deg.y, in_tokyo_deg.x}, 0.01));
   ASSERT_TRUE(found.coordinates) << to_string(found.coordinates.errors());
   EXPECT_EQ(found.warnings, "");
-  const glm::dvec3 place = (*found.coordinates)({tokyo_deg.y, tokyo_deg.x, 12.5});
-  EXPECT_NEAR(glm::distance(glm::dvec2(place), on_map(tokyo_deg)), 0.0, 1e-6);
+  const glm::dvec3 place = (*found.coordinates)({in_tokyo_deg.y, in_tokyo_deg.x, 12.5});
+  EXPECT_NEAR(glm::distance(glm::dvec2(place), on_map(in_tokyo_deg)), 0.0, 1e-6);
   EXPECT_DOUBLE_EQ(place.z, 12.5);
-  const glm::dvec3 north = (*found.coordinates)({tokyo_deg.y + 0.001, tokyo_deg.x, 12.5});
+  const glm::dvec3 north = (*found.coordinates)({in_tokyo_deg.y + 0.001, in_tokyo_deg.x, 12.5});
   EXPECT_NEAR(north.y - place.y, 110.9, 0.5) << "a thousandth of a degree to the north";
   EXPECT_NEAR(north.x - place.x, 0.0, 2.0);
   ASSERT_TRUE(found.coordinates->place_deg());
-  EXPECT_NEAR(glm::distance(*found.coordinates->place_deg(), tokyo_deg), 0.0, 1e-9);
+  EXPECT_NEAR(glm::distance(*found.coordinates->place_deg(), in_tokyo_deg), 0.0, 1e-9);
 }
 
 TEST(CityCoordinates, TheOrderOfTheAxesIsTheNamesWhereBothArePossible) {
@@ -58,9 +58,9 @@ TEST(CityCoordinates, TheOrderOfTheAxesIsTheNamesWhereBothArePossible) {
 }
 
 TEST(CityCoordinates, CoordinatesAndRoofsThatContradictTheNameCountMore) {
-  const Found by_coordinates = find(town_at("EPSG:4979", tokyo_deg, 0.01));
+  const Found by_coordinates = find(town_at("EPSG:4979", in_tokyo_deg, 0.01));
   ASSERT_TRUE(by_coordinates.coordinates);
-  EXPECT_NEAR(glm::distance(*by_coordinates.coordinates->place_deg(), tokyo_deg), 0.0, 1e-9);
+  EXPECT_NEAR(glm::distance(*by_coordinates.coordinates->place_deg(), in_tokyo_deg), 0.0, 1e-9);
   EXPECT_NE(by_coordinates.warnings.find("town.gml: \"EPSG:4979\" means latitude first"), std::string::npos)
       << by_coordinates.warnings;
   CoordinateClues roofs = town_at("EPSG:4979", delft_deg, 0.01);
@@ -72,9 +72,9 @@ TEST(CityCoordinates, CoordinatesAndRoofsThatContradictTheNameCountMore) {
 }
 
 TEST(CityCoordinates, DegreesWithoutANameAreReadWhereOneIsBeyondNinety) {
-  const Found found = find(town_at("", {tokyo_deg.y, tokyo_deg.x}, 0.01));
+  const Found found = find(town_at("", {in_tokyo_deg.y, in_tokyo_deg.x}, 0.01));
   ASSERT_TRUE(found.coordinates && found.coordinates->place_deg());
-  EXPECT_NEAR(glm::distance(*found.coordinates->place_deg(), tokyo_deg), 0.0, 1e-9);
+  EXPECT_NEAR(glm::distance(*found.coordinates->place_deg(), in_tokyo_deg), 0.0, 1e-9);
   EXPECT_NE(found.warnings.find("names no coordinate system"), std::string::npos) << found.warnings;
   const Found unknown = find(town_at("", delft_deg, 0.01));
   ASSERT_TRUE(unknown.coordinates);

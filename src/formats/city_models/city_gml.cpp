@@ -94,7 +94,7 @@ std::string type_name(const citygml::CityObject& object) {
   }
 }
 
-std::string semantics_of(const citygml::Geometry& geometry, const std::string& of_object) {
+std::string semantics_of_geometry(const citygml::Geometry& geometry, const std::string& of_object) {
   using Type = citygml::Geometry::GeometryType;
   switch (geometry.getType()) {
     case Type::GT_Roof:
@@ -152,7 +152,7 @@ void each_geometry(const citygml::CityObject& object, const Use& use) {
 void gather(const citygml::CityObject& object, std::vector<Shown>& shown) {
   const std::string semantics = is_boundary(object.getType()) ? object.getTypeAsString() : "";
   each_geometry(object, [&](const citygml::Geometry& geometry, const Placement& placement) {
-    shown.push_back({&geometry, semantics_of(geometry, semantics), placement});
+    shown.push_back({&geometry, semantics_of_geometry(geometry, semantics), placement});
   });
   for (unsigned i = 0; i < object.getChildCityObjectsCount(); ++i)
     if (is_boundary(object.getChildCityObject(i).getType())) gather(object.getChildCityObject(i), shown);
@@ -222,10 +222,11 @@ class Clues {
   bool has_names_ = false;
 };
 
-class Reader {
+class CityGmlReader {
  public:
-  Reader(const std::filesystem::path& file, const citygml::CityModel& model, CityCoordinates coordinates,
-         std::vector<GeoreferencedTexture> draped, Errors& warnings, std::optional<double> max_detail)
+  CityGmlReader(const std::filesystem::path& file, const citygml::CityModel& model,
+                CityCoordinates coordinates, std::vector<GeoreferencedTexture> draped, Errors& warnings,
+                std::optional<double> max_detail)
       : model_(model),
         coordinates_(std::move(coordinates)),
         draped_(std::move(draped)),
@@ -322,10 +323,10 @@ class Reader {
                      const Placement& placement, const GeoreferencedTexture* drape) {
     drape = drape_of(geometry.getId(), drape);
     for (unsigned i = 0; i < geometry.getPolygonsCount(); ++i)
-      read_polygon(*geometry.getPolygon(i), semantics_of(geometry, semantics), placement, drape);
+      read_polygon(*geometry.getPolygon(i), semantics_of_geometry(geometry, semantics), placement, drape);
     for (unsigned i = 0; i < geometry.getGeometriesCount(); ++i)
-      read_geometry(geometry.getGeometry(i), semantics_of(geometry.getGeometry(i), semantics), placement,
-                    drape);
+      read_geometry(geometry.getGeometry(i), semantics_of_geometry(geometry.getGeometry(i), semantics),
+                    placement, drape);
   }
 
   void read_polygon(const citygml::Polygon& polygon, const std::string& semantics, const Placement& placement,
@@ -540,7 +541,8 @@ Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
                       "libcitygml makes nothing of them, or of what they belong to");
     std::vector<GeoreferencedTexture> draped =
         placed_textures(std::move(gml->draped), coordinates->are_plane(), file, warnings);
-    return Reader(file, *city, *std::move(coordinates), std::move(draped), warnings, max_detail).read();
+    return CityGmlReader(file, *city, *std::move(coordinates), std::move(draped), warnings, max_detail)
+        .read();
   } catch (const std::exception& problem) {
     return error_at(where, "libcitygml cannot read it ({})", reason_of(problem));
   } catch (...) {  // Xerces throws what is no std::exception

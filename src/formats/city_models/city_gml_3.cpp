@@ -113,7 +113,7 @@ constexpr std::array<std::string_view, 7> contents{
      "bldg:buildingConstructiveElement", "tran:trafficSpace", "tran:auxiliaryTrafficSpace"}};
 
 template <class List>
-bool holds(const List& list, std::string_view name) {
+bool list_holds(const List& list, std::string_view name) {
   return std::ranges::find(list, name) != list.end();
 }
 
@@ -196,7 +196,8 @@ class Translation {
     } else if (is_kept_text(in_3, parent)) {
       kept_.clear();
       element.keeps_text = true;
-    } else if (!holds(opened_properties, in_3) && !holds(opened_objects, in_3) && !is_named_attribute(in_3)) {
+    } else if (!list_holds(opened_properties, in_3) && !list_holds(opened_objects, in_3) &&
+               !is_named_attribute(in_3)) {
       element.tag = name_in_2(in_3);
       write_start(element.tag, attributes);
     }
@@ -258,8 +259,9 @@ class Translation {
     if (in_3.find(':') == std::string_view::npos) return true;  // of another schema, or of none
     if (open_.empty()) return false;
     const std::string_view parent = open_.back().in_3;
-    if (holds(opened_objects, parent) && !holds(contents, in_3)) return true;
-    return !holds(opened_properties, in_3) && !holds(opened_objects, in_3) && name_in_2(in_3).empty();
+    if (list_holds(opened_objects, parent) && !list_holds(contents, in_3)) return true;
+    return !list_holds(opened_properties, in_3) && !list_holds(opened_objects, in_3) &&
+           name_in_2(in_3).empty();
   }
 
   void write_start(std::string_view tag, const char** attributes) {
@@ -296,10 +298,10 @@ class Translation {
   std::vector<std::string> coordinates_, rings_;  ///< of a TexCoordList
 };
 
-void on_start(void* user, const char* name, const char** attributes) {
+void start_element(void* user, const char* name, const char** attributes) {
   static_cast<Translation*>(user)->start(name, attributes);
 }
-void on_end(void* user, const char*) { static_cast<Translation*>(user)->end(); }
+void end_element(void* user, const char*) { static_cast<Translation*>(user)->end(); }
 void on_text(void* user, const char* text, int length) {
   static_cast<Translation*>(user)->characters({text, std::size_t(length)});
 }
@@ -313,7 +315,7 @@ Result<std::string> city_gml_2_of(const std::string& xml, const FileLocation& wh
       XML_ParserCreateNS(nullptr, '\n'), XML_ParserFree);
   Translation translation;
   XML_SetUserData(parser.get(), &translation);
-  XML_SetElementHandler(parser.get(), on_start, on_end);
+  XML_SetElementHandler(parser.get(), start_element, end_element);
   XML_SetCharacterDataHandler(parser.get(), on_text);
   constexpr std::size_t piece = 1 << 20;
   for (std::size_t at = 0; at == 0 || at < xml.size(); at += piece) {

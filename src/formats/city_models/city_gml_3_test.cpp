@@ -57,7 +57,7 @@ struct ReadCity {
   std::string warnings;
 };
 
-ReadCity read(const std::string& text) {
+ReadCity read_gml_3(const std::string& text) {
   const TestFolder folder;
   Errors warnings;
   Result<Model> model = read_city_gml(folder.write("city.gml", text), warnings);
@@ -71,7 +71,7 @@ TEST(CityGml3, WallsHaveWindowsAndDoorsAndTheKindOfTheirBuilding) {
                     door = "<con:fillingSurface><con:DoorSurface>" +
                            surface("3 0 0 3.8 0 0 3.8 0 2 3 0 2 3 0 0", "d") +
                            "</con:DoorSurface></con:fillingSurface>";
-  const ReadCity town = read(city(member(
+  const ReadCity town = read_gml_3(city(member(
       "<bldg:Building gml:id=\"house\">" + boundary("con:WallSurface", wall_corners, "p1", window + door) +
       boundary("con:RoofSurface", "0 0 3 4 0 3 4 3 3 0 3 3 0 0 3", "p2") +
       boundary("con:GroundSurface", "0 0 0 0 3 0 4 3 0 4 0 0 0 0 0", "p3") +
@@ -97,12 +97,12 @@ TEST(CityGml3, RoomsKeepTheirSurfacesAndFurnitureAlsoInStoreys) {
                            "</bldg:BuildingFurniture></bldg:buildingFurniture></bldg:BuildingRoom>";
   for (const bool is_in_storey : {false, true}) {
     const std::string rooms = "<bldg:buildingRoom>" + room + "</bldg:buildingRoom>";
-    const ReadCity town =
-        read(city(member("<bldg:Building>" +
-                         (is_in_storey ? "<bldg:buildingSubdivision><bldg:Storey><bldg:class>x</bldg:class>" +
-                                             rooms + "</bldg:Storey></bldg:buildingSubdivision>"
-                                       : rooms) +
-                         "</bldg:Building>")));
+    const ReadCity town = read_gml_3(
+        city(member("<bldg:Building>" +
+                    (is_in_storey ? "<bldg:buildingSubdivision><bldg:Storey><bldg:class>x</bldg:class>" +
+                                        rooms + "</bldg:Storey></bldg:buildingSubdivision>"
+                                  : rooms) +
+                    "</bldg:Building>")));
     ASSERT_TRUE(town.model) << to_string(town.model.errors());
     EXPECT_NEAR(area_m2(*town.model, "CeilingSurface"), 12.0, 1e-3) << is_in_storey;
     EXPECT_NEAR(area_m2(*town.model, "FloorSurface"), 12.0, 1e-3) << is_in_storey;
@@ -113,26 +113,26 @@ TEST(CityGml3, RoomsKeepTheirSurfacesAndFurnitureAlsoInStoreys) {
 
 TEST(CityGml3, RoomsThatAStoreyRefersToAreReadOnce) {
   const ReadCity town =
-      read(city(member("<bldg:Building><bldg:buildingSubdivision><bldg:Storey><bldg:buildingRoom "
-                       "xlink:href=\"#r\"/></bldg:Storey>"
-                       "</bldg:buildingSubdivision><boundary "
-                       "xlink:href=\"#f\"/><bldg:buildingRoom><bldg:BuildingRoom gml:id=\"r\">" +
-                       boundary("con:FloorSurface", floor_corners, "f") +
-                       "</bldg:BuildingRoom></bldg:buildingRoom></bldg:Building>")));
+      read_gml_3(city(member("<bldg:Building><bldg:buildingSubdivision><bldg:Storey><bldg:buildingRoom "
+                             "xlink:href=\"#r\"/></bldg:Storey>"
+                             "</bldg:buildingSubdivision><boundary "
+                             "xlink:href=\"#f\"/><bldg:buildingRoom><bldg:BuildingRoom gml:id=\"r\">" +
+                             boundary("con:FloorSurface", floor_corners, "f") +
+                             "</bldg:BuildingRoom></bldg:buildingRoom></bldg:Building>")));
   ASSERT_TRUE(town.model) << to_string(town.model.errors());
   EXPECT_NEAR(area_m2(*town.model, "FloorSurface"), 12.0, 1e-3);
 }
 
 TEST(CityGml3, TheHighestLevelOfDetailCounts) {
   const ReadCity town =
-      read(city(member("<bldg:Building>" + surface("0 0 3 4 0 3 4 3 3 0 3 3 0 0 3", "a", "0") +
-                       surface("0 0 3 9 0 3 9 3 3 0 3 3 0 0 3", "b", "3") + "</bldg:Building>")));
+      read_gml_3(city(member("<bldg:Building>" + surface("0 0 3 4 0 3 4 3 3 0 3 3 0 0 3", "a", "0") +
+                             surface("0 0 3 9 0 3 9 3 3 0 3 3 0 0 3", "b", "3") + "</bldg:Building>")));
   ASSERT_TRUE(town.model) << to_string(town.model.errors());
   EXPECT_NEAR(area_m2(*town.model, "RoofSurface"), 27.0, 1e-3);
 }
 
 TEST(CityGml3, ReadsWhatElseACityHas) {
-  const ReadCity town = read(city(
+  const ReadCity town = read_gml_3(city(
       member("<luse:LandUse>" + surface(floor_corners, "l") + "</luse:LandUse>") +
       member("<wtr:WaterBody>" + boundary("wtr:WaterSurface", "0 9 0 4 9 0 4 14 0 0 14 0 0 9 0", "w") +
              "</wtr:WaterBody>") +
@@ -181,10 +181,10 @@ TEST(CityGml3, ReadsGenericAttributesAndTextureCoordinates) {
 
 TEST(CityGml3, WhatVersion2DoesNotKnowIsLeftOut) {
   const ReadCity town =
-      read(city(member("<ver:Version><ver:tag>1</ver:tag></ver:Version>") +
-                member("<bldg:Building><ade:energy><ade:Zone>" + surface(floor_corners, "z") +
-                       "</ade:Zone></ade:energy>" + boundary("con:WallSurface", wall_corners, "p1") +
-                       "</bldg:Building>")));
+      read_gml_3(city(member("<ver:Version><ver:tag>1</ver:tag></ver:Version>") +
+                      member("<bldg:Building><ade:energy><ade:Zone>" + surface(floor_corners, "z") +
+                             "</ade:Zone></ade:energy>" + boundary("con:WallSurface", wall_corners, "p1") +
+                             "</bldg:Building>")));
   ASSERT_TRUE(town.model) << to_string(town.model.errors());
   EXPECT_NEAR(area_m2(*town.model, "WallSurface"), 12.0, 1e-3);
   EXPECT_EQ(town.model->parts.size(), 1u);
@@ -192,7 +192,7 @@ TEST(CityGml3, WhatVersion2DoesNotKnowIsLeftOut) {
 
 TEST(CityGml3, HostileFilesAreRefused) {
   const auto expect_refused = [](const std::string& text, const std::string& reason, int line) {
-    const ReadCity town = read(text);
+    const ReadCity town = read_gml_3(text);
     ASSERT_FALSE(town.model) << reason;
     EXPECT_NE(to_string(town.model.errors()).find(reason), std::string::npos)
         << to_string(town.model.errors());
@@ -216,7 +216,7 @@ TEST(CityGml3, DamagedBytesNeverCrash) {
     std::string text = whole;
     for (int change = 0; change <= round % 4; ++change)
       text[std::size_t(random.index(int(text.size())))] = "0123456789<>/\" -e.x"[random.index(19)];
-    static_cast<void>(read(text));
+    static_cast<void>(read_gml_3(text));
   }
 }
 

@@ -32,7 +32,7 @@ std::string wall() {
 </bldg:lod2MultiSurface></bldg:WallSurface></bldg:boundedBy></bldg:Building></cityObjectMember></CityModel>)";
 }
 
-Result<Model> read(const std::string& text) {
+Result<Model> read_gml(const std::string& text) {
   const TestFolder folder;
   Errors warnings;
   return read_city_gml(folder.write("city.gml", text), warnings);
@@ -45,7 +45,7 @@ TEST(CityGml, WallsAreNamedAfterTheKindOfTheirBuilding) {
       text.find(before),
       "<bldg:function>31001_2020</bldg:function><bldg:yearOfConstruction>1931</bldg:yearOfConstruction>"
       "<bldg:storeysAboveGround>3</bldg:storeysAboveGround>");
-  const Result<Model> city = read(text);
+  const Result<Model> city = read_gml(text);
   ASSERT_TRUE(city) << to_string(city.errors());
   ASSERT_EQ(city->parts.size(), 1u);
   EXPECT_EQ(city->parts.front().object, "WallSurface office 1919-1945 3-storeys");
@@ -77,7 +77,7 @@ std::string box_building(const std::string& version) {
 }
 
 void expect_refused(const std::string& text, const std::string& reason, int line) {
-  const Result<Model> city = read(text);
+  const Result<Model> city = read_gml(text);
   ASSERT_FALSE(city) << reason;
   EXPECT_NE(to_string(city.errors()).find(reason), std::string::npos) << to_string(city.errors());
   EXPECT_EQ(city.errors().front().where.line, line);
@@ -96,7 +96,7 @@ TEST(CityGml, RoomsKeepTheirCeilingsAndTheirFurniture) {
         "</bldg:lod4MultiSurface></bldg:{0}></bldg:boundedBy>",
         kind, surface(corners));
   };
-  const Result<Model> city = read(
+  const Result<Model> city = read_gml(
       R"(<?xml version="1.0"?><CityModel xmlns="http://www.opengis.net/citygml/2.0"
 xmlns:bldg="http://www.opengis.net/citygml/building/2.0" xmlns:gml="http://www.opengis.net/gml">
 <cityObjectMember><bldg:Building gml:id="house"><bldg:interiorRoom><bldg:Room gml:id="room">)" +
@@ -120,7 +120,7 @@ xmlns:bldg="http://www.opengis.net/citygml/building/2.0" xmlns:gml="http://www.o
 }
 
 TEST(CityGml, TerrainKeepsItsName) {
-  const Result<Model> city = read(
+  const Result<Model> city = read_gml(
       R"(<?xml version="1.0"?><CityModel xmlns="http://www.opengis.net/citygml/2.0"
 xmlns:dem="http://www.opengis.net/citygml/relief/2.0" xmlns:gml="http://www.opengis.net/gml">
 <cityObjectMember><dem:ReliefFeature gml:id="hill"><dem:lod>1</dem:lod><dem:reliefComponent><dem:TINRelief gml:id="tin">
@@ -133,7 +133,7 @@ xmlns:dem="http://www.opengis.net/citygml/relief/2.0" xmlns:gml="http://www.open
 }
 
 TEST(CityGml, AWallKeepsItsSizeItsHoleAndItsPlace) {
-  const Result<Model> city = read(wall());
+  const Result<Model> city = read_gml(wall());
   ASSERT_TRUE(city) << to_string(city.errors());
   EXPECT_NEAR(area_m2(*city, "WallSurface"), 11.0, 1e-3);
   EXPECT_EQ(city->origin, glm::dvec3(80002.0, 450000.0, 0.0));
@@ -142,7 +142,7 @@ TEST(CityGml, AWallKeepsItsSizeItsHoleAndItsPlace) {
 
 TEST(CityGml, Versions1And2ReadTheSame) {
   for (const char* version : {"1.0", "2.0"}) {
-    const Result<Model> city = read(box_building(version));
+    const Result<Model> city = read_gml(box_building(version));
     ASSERT_TRUE(city) << version << to_string(city.errors());
     EXPECT_NEAR(area_m2(*city, "RoofSurface"), 80.0, 1e-3) << version;
     EXPECT_NEAR(area_m2(*city, "GroundSurface"), 80.0, 1e-3) << version;
@@ -151,7 +151,7 @@ TEST(CityGml, Versions1And2ReadTheSame) {
 }
 
 TEST(CityGml, TheBackOfAClosedBodyIsNotShownButThatOfAnOpenOneIs) {
-  const Result<Model> closed = read(box_building("2.0"));
+  const Result<Model> closed = read_gml(box_building("2.0"));
   ASSERT_TRUE(closed) << to_string(closed.errors());
   for (const Part& part : closed->parts) {
     EXPECT_FALSE(closed->materials[std::size_t(part.material)].is_double_sided) << part.object;
@@ -164,7 +164,7 @@ TEST(CityGml, TheBackOfAClosedBodyIsNotShownButThatOfAnOpenOneIs) {
   std::string without_roof = box_building("2.0");
   const std::size_t roof = without_roof.find("0 0 6 10 0 6 10 8 6");
   without_roof.replace(roof, 5, "0 0 7");  // one corner off: a gap
-  const Result<Model> open = read(without_roof);
+  const Result<Model> open = read_gml(without_roof);
   ASSERT_TRUE(open) << to_string(open.errors());
   for (const Part& part : open->parts)
     if (part.object == "WallSurface") {
@@ -180,7 +180,7 @@ TEST(CityGml, WallsAndRoofsAreWhatCityJsonMakesThem) {
       [[0,3,2,1]],[[4,5,6,7]],[[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]]]}]}},
     "vertices":[[0,0,0],[10,0,0],[10,8,0],[0,8,0],[0,0,6],[10,0,6],[10,8,6],[0,8,6]]})"),
                                        warnings);
-  Result<Model> gml = read(box_building("2.0"));
+  Result<Model> gml = read_gml(box_building("2.0"));
   ASSERT_TRUE(json && gml);
   ASSERT_EQ(gml->parts.size(), json->parts.size());
   for (const Part& part : json->parts)
@@ -408,7 +408,7 @@ TEST(CityGml, DamagedBytesNeverCrash) {
     std::string text = wall();
     for (int change = 0; change <= round % 4; ++change)
       text[std::size_t(random.index(int(text.size())))] = "0123456789<>/\" -e.x"[random.index(19)];
-    static_cast<void>(read(text));
+    static_cast<void>(read_gml(text));
   }
 }
 

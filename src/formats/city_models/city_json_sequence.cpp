@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int deepest = 6;  // lists in each other: solids, shells, surfaces, rings, vertices
+constexpr int deepest_list = 6;  // lists in each other: solids, shells, surfaces, rings, vertices
 
 /// How many a list of the whole had before a feature's were appended to it.
 struct Offsets {
@@ -18,14 +18,14 @@ struct Offsets {
 };
 
 /// Adds to every index in lists within lists.
-void shift(Json& indices, std::size_t offset, int depth = deepest) {
+void shift(Json& indices, std::size_t offset, int depth = deepest_list) {
   if (indices.is_number_unsigned()) indices = indices.get<std::size_t>() + offset;
   if (!indices.is_array() || depth == 0) return;
   for (Json& each : indices) shift(each, offset, depth - 1);
 }
 
 /// The innermost lists name a texture first, then a texture vertex for each corner.
-void shift_textures(Json& values, const Offsets& offsets, int depth = deepest) {
+void shift_textures(Json& values, const Offsets& offsets, int depth = deepest_list) {
   if (!values.is_array() || depth == 0) return;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i].is_number_unsigned())

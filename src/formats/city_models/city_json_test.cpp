@@ -22,7 +22,7 @@ std::string house() {
       [2000,2000,6000],[4000,2000,6000],[4000,4000,6000],[2000,4000,6000]]})";
 }
 
-Result<Model> read(const std::string& text) {
+Result<Model> read_city_json(const std::string& text) {
   const TestFolder folder;
   Errors warnings;
   return read_city_model(folder.write("city.json", text), warnings);
@@ -35,7 +35,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
 }
 
 TEST(CityJson, AHouseKeepsItsSizeAndItsHole) {
-  const Result<Model> city = read(house());
+  const Result<Model> city = read_city_json(house());
   ASSERT_TRUE(city) << to_string(city.errors());
   EXPECT_NEAR(area_m2(*city, "RoofSurface"), 76.0, 1e-3);  // 80 less the hole of 4
   EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1e-3);
@@ -44,7 +44,7 @@ TEST(CityJson, AHouseKeepsItsSizeAndItsHole) {
 
 TEST(CityJson, WallsAreNamedAfterTheKindOfTheirBuilding) {
   const auto walls_of = [](const std::string& attributes) {
-    const Result<Model> city = read(
+    const Result<Model> city = read_city_json(
         with(house(), R"("house":{"type":"Building",)",
              R"("whole":{"type":"Building","attributes":{"oorspronkelijkbouwjaar":1911,"function":["1000"]}},
                      "house":{"type":"BuildingPart","parents":["whole"],"attributes":)" +
@@ -63,7 +63,7 @@ TEST(CityJson, WallsAreNamedAfterTheKindOfTheirBuilding) {
 }
 
 TEST(CityJson, TheOriginIsKeptAndTheModelStandsAroundIt) {
-  const Result<Model> city = read(house());
+  const Result<Model> city = read_city_json(house());
   ASSERT_TRUE(city);
   EXPECT_EQ(city->origin, glm::dvec3(80005.0, 450004.0, 0.0));
   const Bounds box = bounds(*city);
@@ -73,7 +73,7 @@ TEST(CityJson, TheOriginIsKeptAndTheModelStandsAroundIt) {
 }
 
 TEST(CityJson, FacesLookOutward) {
-  const Result<Model> city = read(house());
+  const Result<Model> city = read_city_json(house());
   ASSERT_TRUE(city);
   const glm::vec3 middle = bounds(*city).centre();
   for (const Part& part : city->parts)
@@ -85,7 +85,7 @@ TEST(CityJson, FacesLookOutward) {
 
 TEST(CityJson, BadFilesAreRefusedByName) {
   const auto expect = [](const std::string& text, const std::string& reason) {
-    const Result<Model> city = read(text);
+    const Result<Model> city = read_city_json(text);
     ASSERT_FALSE(city) << reason;
     EXPECT_NE(to_string(city.errors()).find(reason), std::string::npos) << to_string(city.errors());
   };
@@ -103,7 +103,7 @@ TEST(CityJson, CoordinatesInDegreesAreRefused) {
   std::string degrees = house();
   const std::string scale = "\"scale\":[0.001,0.001,0.001]";
   ASSERT_NE(degrees.find(scale), std::string::npos);
-  const Result<Model> city = read(with(degrees, scale, "\"scale\":[0.00000001,0.00000001,0.001]"));
+  const Result<Model> city = read_city_json(with(degrees, scale, "\"scale\":[0.00000001,0.00000001,0.001]"));
   ASSERT_FALSE(city);
   EXPECT_NE(to_string(city.errors()).find("seem to be degrees"), std::string::npos);
 }
@@ -133,7 +133,7 @@ TEST(CityJson, NamedDegreesAndFeetBecomeMetres) {
   EXPECT_NEAR(size.x, 8e-5 * 90'530.0, off_north_m);
   EXPECT_NEAR(size.z, 6.0f, 1e-3f);
   const Result<Model> feet =
-      read(named("[0.001,0.001,0.001]", "[971000,190600,2]", "urn:ogc:def:crs:EPSG::2263"));
+      read_city_json(named("[0.001,0.001,0.001]", "[971000,190600,2]", "urn:ogc:def:crs:EPSG::2263"));
   ASSERT_TRUE(feet) << to_string(feet.errors());
   EXPECT_NEAR(bounds(*feet).size().x, 3.048f, 1e-3f);
   EXPECT_NEAR(bounds(*feet).size().z, 6.0f * 0.3048f, 1e-3f);
@@ -169,10 +169,10 @@ TEST(CityJson, PackedFilesAndSequencesAreReadAsTheyAre) {
 TEST(CityJson, Version02AsItWasPublishedIsRead) {
   const std::string early = with(with(house(), "\"CityJSON\"", "\"CityModel\""), "\"1.1\"",
                                  "\"http://www.cityjson.org/version/0.2\"");
-  const Result<Model> city = read(early);
+  const Result<Model> city = read_city_json(early);
   ASSERT_TRUE(city) << to_string(city.errors());
   EXPECT_NEAR(area_m2(*city, "RoofSurface"), 76.0, 1e-3);
-  EXPECT_FALSE(read(with(early, "/0.2", "/7.2")));
+  EXPECT_FALSE(read_city_json(with(early, "/0.2", "/7.2")));
 }
 
 /// The house as towns publish it: roof, footprint and walls are a geometry each, of one level, beside a
@@ -196,14 +196,14 @@ TEST(CityJson, KindsThatAListCallsWallsInAllGeometriesAreInferred) {
                R"("lod":2,"boundaries":[[[0,1,2,3]]],"semantics":["WallSurface"])");
   early = with(early, R"([[3,0,4,7]]])",
                R"([[3,0,4,7]]],"semantics":["WallSurface","WallSurface","WallSurface","WallSurface"])");
-  const Result<Model> city = read(early);
+  const Result<Model> city = read_city_json(early);
   ASSERT_TRUE(city) << to_string(city.errors());
   EXPECT_NEAR(area_m2(*city, "RoofSurface"), 76.0, 1e-3) << "of a geometry with one surface";
   EXPECT_NEAR(area_m2(*city, "GroundSurface"), 80.0, 1e-3);
 }
 
 TEST(CityJson, AllGeometriesOfTheChosenLevelAreRead) {
-  const Result<Model> city = read(house_in_three());
+  const Result<Model> city = read_city_json(house_in_three());
   ASSERT_TRUE(city) << to_string(city.errors());
   EXPECT_NEAR(area_m2(*city, "RoofSurface"), 76.0, 1e-3);
   EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1e-3);
@@ -214,7 +214,7 @@ TEST(CityJson, AShapeThatIsGivenTwiceIsReadOnce) {
   const std::string twice =
       with(house(), "\"geometry\":[",
            R"("geometry":[{"type":"MultiSurface","lod":"2.2","boundaries":[[[1,5,4,0]]]},)");
-  const Result<Model> city = read(twice);
+  const Result<Model> city = read_city_json(twice);
   ASSERT_TRUE(city) << to_string(city.errors());
   EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1e-3);
 }
@@ -223,7 +223,7 @@ TEST(CityJson, ASolidOfOneKindIsDividedBySlope) {
   const std::string alike =
       with(house(), "\"lod\":\"2.2\"",
            R"("lod":"2.2","semantics":{"surfaces":[{"type":"WallSurface"}],"values":[[0,0,0,0,0,0]]})");
-  const Result<Model> city = read(alike);
+  const Result<Model> city = read_city_json(alike);
   ASSERT_TRUE(city) << to_string(city.errors());
   EXPECT_NEAR(area_m2(*city, "RoofSurface"), 76.0, 1e-3);
   EXPECT_NEAR(area_m2(*city, "GroundSurface"), 80.0, 1e-3);
@@ -240,7 +240,7 @@ TEST(CityJson, SurfacesOfOneKindAreDividedBySlope) {
                  fmt::format(R"({},"semantics":{{"surfaces":[{{"type":"WallSurface"}}],"values":{}}})",
                              boundaries, kinds));
   }
-  const Result<Model> city = read(alike);
+  const Result<Model> city = read_city_json(alike);
   ASSERT_TRUE(city) << to_string(city.errors());
   EXPECT_NEAR(area_m2(*city, "RoofSurface"), 76.0, 1e-3);
   EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1e-3);
@@ -285,7 +285,7 @@ std::string house_with_mast() {
 }
 
 TEST(CityJson, TemplatesStandAtTheirPlaces) {
-  const Result<Model> city = read(house_with_mast());
+  const Result<Model> city = read_city_json(house_with_mast());
   ASSERT_TRUE(city) << to_string(city.errors());
   EXPECT_NEAR(area_m2(*city, "CityFurniture"), 16.0, 1e-3);
   for (const Part& part : city->parts)
@@ -293,12 +293,12 @@ TEST(CityJson, TemplatesStandAtTheirPlaces) {
       EXPECT_NEAR(part.mesh.bounds().min.x, 5.5f, 1e-4f);   // corner 6 lies at x 5 of the model
       EXPECT_NEAR(part.mesh.bounds().max.z, 16.0f, 1e-4f);  // 8 m up, and 2 x 4 m
     }
-  EXPECT_FALSE(read(with(house_with_mast(), "\"template\":0", "\"template\":3")));
-  EXPECT_FALSE(read(with(house_with_mast(), "[6]", "[66]")));
+  EXPECT_FALSE(read_city_json(with(house_with_mast(), "\"template\":0", "\"template\":3")));
+  EXPECT_FALSE(read_city_json(with(house_with_mast(), "[6]", "[66]")));
 }
 
 TEST(CityJson, MirroredTemplatesKeepTheirFaces) {
-  const Result<Model> city = read(with(house_with_mast(), "[2,0,0,0.5, 0,2", "[2,0,0,0.5, 0,-2"));
+  const Result<Model> city = read_city_json(with(house_with_mast(), "[2,0,0,0.5, 0,2", "[2,0,0,0.5, 0,-2"));
   ASSERT_TRUE(city) << to_string(city.errors());
   const auto mast = std::find_if(city->parts.begin(), city->parts.end(),
                                  [](const Part& part) { return part.object == "CityFurniture"; });
@@ -316,7 +316,7 @@ std::string house_with_materials() {
 }
 
 TEST(CityJson, MaterialsOfTheDefaultTheme) {
-  const Result<Model> city = read(house_with_materials());
+  const Result<Model> city = read_city_json(house_with_materials());
   ASSERT_TRUE(city) << to_string(city.errors());
   std::size_t red = 0, green = 0;
   for (const Material& material : city->materials) {
@@ -330,7 +330,7 @@ TEST(CityJson, MaterialsOfTheDefaultTheme) {
   }
   EXPECT_EQ(red, 2u);  // of the ground and of the walls: materials that look alike are one
   EXPECT_EQ(green, 1u);
-  EXPECT_FALSE(read(with(house_with_materials(), "0,1]]}}", "0,9]]}}")));
+  EXPECT_FALSE(read_city_json(with(house_with_materials(), "0,1]]}}", "0,9]]}}")));
 }
 
 TEST(CityJson, SemanticsOfTheFirstVersionsStandInTheirList) {
@@ -338,7 +338,7 @@ TEST(CityJson, SemanticsOfTheFirstVersionsStandInTheirList) {
       with(with(house(), "\"1.1\"", "\"0.2\""), "\"lod\":\"2.2\"",
            R"("lod":2,"semantics":[[{"type":"GroundSurface"},{"type":"WallSurface"},null,{},
                                   {"type":"RoofSurface"}]])");
-  const Result<Model> city = read(old);
+  const Result<Model> city = read_city_json(old);
   ASSERT_TRUE(city) << to_string(city.errors());
   EXPECT_NEAR(area_m2(*city, "RoofSurface"), 60.0, 1e-3);  // what the list calls a roof
 }
@@ -346,7 +346,7 @@ TEST(CityJson, SemanticsOfTheFirstVersionsStandInTheirList) {
 TEST(CityJson, WithoutTransformVerticesAreMetres) {
   std::string text =
       with(house(), R"("transform":{"scale":[0.001,0.001,0.001],"translate":[80000,450000,2]},)", "");
-  const Result<Model> city = read(text);
+  const Result<Model> city = read_city_json(text);
   ASSERT_TRUE(city) << to_string(city.errors());
   EXPECT_NEAR(bounds(*city).size().x, 10000.0f, 1e-2f);
 }
@@ -368,10 +368,10 @@ TEST(CityJson, TheLevelOfDetailAskedFor) {
 }
 
 TEST(CityJson, ExtensionsAreTakenByTheirGeometry) {
-  const Result<Model> tower = read(with(house(), "\"Building\"", "\"+NoiseBuilding\""));
+  const Result<Model> tower = read_city_json(with(house(), "\"Building\"", "\"+NoiseBuilding\""));
   ASSERT_TRUE(tower) << to_string(tower.errors());
   EXPECT_NEAR(area_m2(*tower, "WallSurface"), 216.0, 1e-3);
-  const Result<Model> thing = read(with(house(), "\"Building\"", "\"+Pavilion\""));
+  const Result<Model> thing = read_city_json(with(house(), "\"Building\"", "\"+Pavilion\""));
   ASSERT_TRUE(thing) << to_string(thing.errors());
   EXPECT_NEAR(area_m2(*thing, "GenericCityObject"), 372.0, 1e-3);
 }
@@ -380,7 +380,7 @@ TEST(CityJson, SolidsOfManySolids) {
   std::string text = with(house(), "\"Solid\"", "\"MultiSolid\"");
   text = with(text, "\"boundaries\":[[", "\"boundaries\":[[[");
   text = with(text, "[[3,0,4,7]]]]", "[[3,0,4,7]]]]]");
-  const Result<Model> city = read(text);
+  const Result<Model> city = read_city_json(text);
   ASSERT_TRUE(city) << to_string(city.errors());
   EXPECT_NEAR(area_m2(*city, "WallSurface"), 216.0, 1e-3);
 }
@@ -393,7 +393,7 @@ TEST(CityJson, DamagedTextNeverCrashes) {
     if (round % 3 == 2) text = house_with_materials();
     for (int change = 0; change <= round % 4; ++change)
       text[std::size_t(random.index(int(text.size())))] = "0123456789[]{},:\"-e.x"[random.index(21)];
-    static_cast<void>(read(text));
+    static_cast<void>(read_city_json(text));
   }
 }
 

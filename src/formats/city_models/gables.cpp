@@ -12,8 +12,6 @@ using glm::dvec2, glm::dvec3;
 constexpr double steepest_ridge = 0.35;  // of the roof's own slope; the line of a square hip rises by 0.7
 constexpr double nearest_corner = 0.1;   // of the edge's length, from the top of the gable
 
-double cross(dvec2 a, dvec2 b) { return a.x * b.y - a.y * b.x; }
-
 /// For each point those that it shares an edge of a face with.
 std::vector<std::set<int>> neighbours_of(const StraightSkeleton& skeleton) {
   std::vector<std::set<int>> neighbours(skeleton.points.size());
@@ -31,9 +29,10 @@ std::optional<dvec3> top_of_gable(const dvec3& a, const dvec3& b, const dvec3& t
   const double length_m = glm::length(dvec2(ridge));
   if (far.z <= 0.0 || std::abs(ridge.z) > steepest_ridge * length_m) return std::nullopt;
   const dvec2 edge(b - a), from(tip - a);
-  const double across = cross(dvec2(ridge), edge);
+  const double across = cross_in_plan(dvec2(ridge), edge);
   if (across == 0.0) return std::nullopt;
-  const double extended = cross(edge, from) / across, along = cross(dvec2(ridge), from) / across;
+  const double extended = cross_in_plan(edge, from) / across,
+               along = cross_in_plan(dvec2(ridge), from) / across;
   if (!(extended > 0.0) || along < nearest_corner || along > 1.0 - nearest_corner) return std::nullopt;
   const dvec2 place = dvec2(a) + along * edge;
   return dvec3(place, tip.z + extended * ridge.z);

@@ -14,7 +14,7 @@
 namespace parvis::scene {
 namespace {
 
-constexpr std::string_view element = "GeoreferencedTexture";
+constexpr std::string_view texture_element = "GeoreferencedTexture";
 constexpr std::string_view blanks = " \t\r\n";
 constexpr std::size_t max_named = 3;  // pictures in one warning
 constexpr std::uint64_t max_world_file_bytes = 4096;
@@ -144,9 +144,11 @@ bool find_place(GeoreferencedTexture& texture, const Roots& roots) {
 
 std::vector<GeoreferencedTexture> georeferenced_textures(std::string_view xml) {
   std::vector<GeoreferencedTexture> textures;
-  for (std::size_t at = xml.find(element); at != std::string_view::npos; at = xml.find(element, at + 1)) {
+  for (std::size_t at = xml.find(texture_element); at != std::string_view::npos;
+       at = xml.find(texture_element, at + 1)) {
     if (!begins_element(xml, at)) continue;
-    const std::string_view text = xml.substr(at, std::min(xml.find(element, at + 1), xml.size()) - at);
+    const std::string_view text =
+        xml.substr(at, std::min(xml.find(texture_element, at + 1), xml.size()) - at);
     GeoreferencedTexture& texture = textures.emplace_back();
     texture.picture = first_text(text, "imageURI").value_or("");
     read_elements(text, texture);

@@ -13,9 +13,9 @@ namespace {
 using glm::dvec2;
 
 /// Ways of a relation by their ends.
-class OpenWays {
+class UnclosedWays {
  public:
-  explicit OpenWays(std::vector<std::vector<OsmId>> ways)
+  explicit UnclosedWays(std::vector<std::vector<OsmId>> ways)
       : ways_(std::move(ways)), is_taken_(ways_.size(), false) {
     for (std::size_t i = 0; i < ways_.size(); ++i) {
       at_end_[ways_[i].front()].push_back(i);
@@ -233,7 +233,7 @@ std::vector<OsmAreas::NodeRing> OsmAreas::rings_of(const OsmRelation& relation, 
     else if (!way->nodes.empty())
       open.push_back(way->nodes);
   }
-  OpenWays ways(std::move(open));
+  UnclosedWays ways(std::move(open));
   for (std::size_t i = ways.size(); i-- > 0;) {
     NodeRing ring = ways.take(i);
     if (ring.empty()) continue;

@@ -8,7 +8,7 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double enough = 0.15;       // of an outline, that parts cover
+constexpr double min_covered = 0.15;  // of an outline, that parts cover
 constexpr int samples_per_side = 24;  // of the outline's box
 
 bool is_in(const OsmArea& area, dvec2 point) {
@@ -65,7 +65,7 @@ bool parts_cover(const OsmArea& outline, std::span<const OsmArea* const> parts) 
     }
   }
   // An outline so thin that no sample lies in it is no house beside its parts.
-  return inside == 0 || covered >= enough * inside;
+  return inside == 0 || covered >= min_covered * inside;
 }
 
 }  // namespace parvis::scene

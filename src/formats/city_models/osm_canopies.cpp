@@ -14,7 +14,7 @@ using glm::dvec2, glm::dvec3;
 
 constexpr double inset_m = 0.4;                  // of posts from the edge
 constexpr double bay_m = 6.0;                    // between posts along an edge, at most
-constexpr double near_m = 1.2;                   // a corner so near to the post before has none
+constexpr double near_post_m = 1.2;              // a corner so near to the post before has none
 constexpr double small_m2 = 60.0;                // a canopy of no larger plan has slim posts
 constexpr double slim_m = 0.06, stout_m = 0.16;  // half the width of a post
 constexpr double max_bays = 60.0;                // along an edge: longer ones have wider bays
@@ -68,7 +68,8 @@ void OsmPosts::add(const std::vector<OsmRing>& rings, double top_m) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const dvec2 from = inside_corner(ring, i), to = inside_corner(ring, (i + 1) % ring.size());
       const double length_m = glm::distance(from, to);
-      if (i == 0 || glm::distance(last, from) >= near_m) add(last = from, direction(from, to), half_m, top_m);
+      if (i == 0 || glm::distance(last, from) >= near_post_m)
+        add(last = from, direction(from, to), half_m, top_m);
       const int bays = has_bays ? int(std::ceil(std::clamp(length_m / bay_m, 1.0, max_bays))) : 1;
       for (int bay = 1; bay < bays; ++bay)
         add(last = glm::mix(from, to, double(bay) / double(bays)), direction(from, to), half_m, top_m);

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "formats/city_models/test_osm.h"
+#include "formats/city_models/test_rings.h"
 #include "scene/data/test_scene.h"
 
 namespace parvis::scene {
 namespace {
 
-const std::vector<glm::dvec2> rectangle{{0, 0}, {12, 0}, {12, 8}, {0, 8}};
 constexpr const char *slab = "RoofSurface metal", *posts = "CityFurniture";
 constexpr std::size_t triangles_per_post = 10;
 

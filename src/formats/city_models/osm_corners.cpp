@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "formats/city_models/straight_skeleton.h"
+
 namespace parvis::scene {
 namespace {
 
@@ -12,14 +14,12 @@ using glm::dvec2;
 constexpr double same_m = 0.02;   // points that are nearer are one
 constexpr double aside_m = 0.05;  // points that are nearer to a side lie along it
 
-double cross(dvec2 a, dvec2 b) { return a.x * b.y - a.y * b.x; }
-
 /// Whether b is the tip of a spike: the sides a b and b c run back along each other.
 bool is_spike(dvec2 a, dvec2 b, dvec2 c) {
   const dvec2 in = b - a, out = c - b;
   const double shorter_m = std::min(glm::length(in), glm::length(out));
   return glm::dot(in, out) < 0.0 &&
-         std::abs(cross(in, out)) * shorter_m <= same_m * glm::length(in) * glm::length(out);
+         std::abs(cross_in_plan(in, out)) * shorter_m <= same_m * glm::length(in) * glm::length(out);
 }
 
 /// Every point farther than `same_m` from the one before.
@@ -89,7 +89,7 @@ class Fan {
 
  private:
   double angle_to(dvec2 offset) const {
-    return std::atan2(cross(middle_, offset), glm::dot(middle_, offset));
+    return std::atan2(cross_in_plan(middle_, offset), glm::dot(middle_, offset));
   }
 
   dvec2 from_, middle_{1.0, 0.0};

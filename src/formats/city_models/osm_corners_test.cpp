@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "formats/city_models/test_rings.h"
+
 namespace parvis::scene {
 namespace {
 
 using glm::dvec2;
-
-const OsmRing rectangle{{0, 0}, {12, 0}, {12, 8}, {0, 8}};
 
 /// The same corners, whichever comes first.
 void expect_corners(const OsmRing& found, const OsmRing& expected) {

@@ -15,11 +15,11 @@ using glm::dvec2, glm::dvec3;
 constexpr std::size_t min_corners = 12;  // of the outline of a cone: they turn by 30 degrees
 constexpr double max_facet_m = 6.0;      // of a wall: wider ones are seen to be flat
 const double min_cos = std::cos(glm::radians(30.0));
-constexpr double same_point_m = 1e-3;
+constexpr double same_curve_point_m = 1e-3;
 constexpr std::size_t max_at_point = 500;  // facets: of more, none is seen
 
 std::array<long, 3> place_of(const dvec3& point) {
-  const dvec3 at = point / same_point_m;
+  const dvec3 at = point / same_curve_point_m;
   return {std::lround(at.x), std::lround(at.y), std::lround(at.z)};
 }
 

@@ -20,27 +20,28 @@ using glm::dvec2, glm::dvec3;
 using Rings = std::vector<std::vector<dvec3>>;
 
 constexpr double usual_height_m = 3.5, usual_rail_height_m = 5.0;
-constexpr double lowest_m = 2.0, highest_m = 12.0;  // of what maxheight may say
-constexpr double beside_road_m = 0.4, rail_half_m = 2.0, path_half_m = 1.2;
+constexpr double min_passage_m = 2.0, max_passage_m = 12.0;  // of what maxheight may say
+constexpr double passage_beside_road_m = 0.4, passage_rail_half_m = 2.0, passage_path_half_m = 1.2;
 constexpr double beyond_end_m = 0.3;       // of half a passage: for walls that it meets at an angle
-constexpr double longest_m = 500.0;        // of a straight piece: no building is as deep
+constexpr double max_straight_m = 500.0;   // of a straight piece: no building is as deep
 constexpr double stretch_m = 20.0;         // between the points by which pieces are found
 constexpr double shortest_inside_m = 0.5;  // a way that has no more of itself in a building passes by
 constexpr std::size_t max_pieces = 64, max_near = 256;  // through one building, and in the box around it
 constexpr double smallest_m2 = 0.1;                     // of a ceiling
-constexpr dvec3 up(0.0, 0.0, 1.0);
+constexpr dvec3 upward(0.0, 0.0, 1.0);
 
 /// Half the width of an opening for a way; 0: it needs none.
 double half_passage_m(const OsmWay& way) {
   if (tag(way.tags, "tunnel") != "building_passage" || tag(way.tags, "area") == "yes") return 0.0;
-  if (is_rail(way.tags)) return rail_half_m;
-  if (const double half_m = half_carriageway_m(way); half_m > 0.0) return half_m + beside_road_m;
-  return says_yes(way.tags, "highway") ? std::max(half_path_m(way.tags), path_half_m) : 0.0;
+  if (is_rail(way.tags)) return passage_rail_half_m;
+  if (const double half_m = half_carriageway_m(way); half_m > 0.0) return half_m + passage_beside_road_m;
+  return says_yes(way.tags, "highway") ? std::max(half_path_m(way.tags), passage_path_half_m) : 0.0;
 }
 
 double clearance_m(const OsmTags& tags) {
   for (const char* key : {"maxheight:physical", "maxheight"})
-    if (const auto given = metres_in(tag(tags, key)); given && *given >= lowest_m && *given <= highest_m)
+    if (const auto given = metres_in(tag(tags, key));
+        given && *given >= min_passage_m && *given <= max_passage_m)
       return *given;
   return is_rail(tags) ? usual_rail_height_m : usual_height_m;
 }
@@ -75,8 +76,8 @@ std::vector<dvec3> about(dvec2 origin, const OsmRing& ring) {
 
 /// The outlines of what rings hold by a rule; nothing where they cross too often.
 std::optional<Rings> outlined(const Rings& rings, Inside inside) {
-  if (!can_be_triangulated(rings, up)) return std::nullopt;
-  return outlines(rings, up, inside);
+  if (!can_be_triangulated(rings, upward)) return std::nullopt;
+  return outlines(rings, upward, inside);
 }
 
 Rings joined(Rings first, const Rings& second) {
@@ -102,7 +103,7 @@ std::optional<OsmOpening> cut_open(const std::vector<OsmRing>& building, const R
   if (!whole || !taken) return std::nullopt;
   const Rings both = joined(*whole, *taken);
   const std::optional<Rings> left = outlined(joined(*whole, reversed(*taken)), Inside::positive);
-  if (!left || !can_be_triangulated(both, up)) return std::nullopt;
+  if (!left || !can_be_triangulated(both, upward)) return std::nullopt;
   OsmOpening opening{};
   opening.ground.reserve(left->size());
   for (const std::vector<dvec3>& ring : *left) {
@@ -111,7 +112,7 @@ std::optional<OsmOpening> cut_open(const std::vector<OsmRing>& building, const R
     for (const dvec3& point : ring) corners.push_back(dvec2(point) + origin);
   }
   std::vector<dvec3> points;
-  const std::vector<std::uint32_t> triangles = triangulated(both, up, points, Inside::twice);
+  const std::vector<std::uint32_t> triangles = triangulated(both, upward, points, Inside::twice);
   opening.ceiling.reserve(triangles.size() / 3);
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3)
     opening.ceiling.push_back({dvec2(points[triangles[i]]) + origin, dvec2(points[triangles[i + 1]]) + origin,
@@ -119,7 +120,7 @@ std::optional<OsmOpening> cut_open(const std::vector<OsmRing>& building, const R
   return opening;
 }
 
-double area_m2(const std::vector<std::array<dvec2, 3>>& triangles) {
+double triangles_area_m2(const std::vector<std::array<dvec2, 3>>& triangles) {
   double sum = 0.0;
   for (const auto& [a, b, c] : triangles) sum += scene::area_m2({a, b, c});
   return sum;
@@ -159,7 +160,7 @@ void OsmPassages::add(const std::vector<dvec3>& line, double half_m, double top_
                       {sides.right[i], sides.right[i + 1], sides.left[i + 1], sides.left[i]},
                       top_m};
     const double length_m = glm::distance(piece.from, piece.to);
-    if (!(length_m < longest_m)) continue;
+    if (!(length_m < max_straight_m)) continue;
     const int stretches = int(std::ceil(length_m / stretch_m));
     for (int k = 0; k < stretches; ++k)
       middles_.add(glm::mix(piece.from, piece.to, (double(k) + 0.5) / double(stretches)), pieces_.size());
@@ -205,7 +206,7 @@ std::optional<OsmOpening> OsmPassages::through(const std::vector<OsmRing>& rings
                            building));
     return std::nullopt;
   }
-  if (!(area_m2(opening->ceiling) > smallest_m2)) return std::nullopt;
+  if (!(triangles_area_m2(opening->ceiling) > smallest_m2)) return std::nullopt;
   opening->top_m = top_m;
   return opening;
 }

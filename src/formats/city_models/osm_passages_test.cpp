@@ -12,9 +12,9 @@ namespace {
 
 using glm::dvec2, glm::dvec3;
 
-const std::vector<dvec2> block{{0, 0}, {20, 0}, {20, 10}, {0, 10}};
+const std::vector<dvec2> long_house{{0, 0}, {20, 0}, {20, 10}, {0, 10}};
 const TestTags house{{"building", "yes"}, {"height", "12"}};
-constexpr const char *walls = "WallSurface", *ceiling = "OuterCeilingSurface";
+constexpr const char *wall_surface = "WallSurface", *ceiling = "OuterCeilingSurface";
 
 TestTags passage(TestTags more = {}) {
   more.insert(more.end(), {{"highway", "service"}, {"tunnel", "building_passage"}, {"width", "4"}});
@@ -24,7 +24,7 @@ constexpr double passage_width_m = 4.8;  // with some room on both sides
 
 /// The town is closed but for `floor_m2` of ground that its buildings stand on.
 void expect_closed(const Model& model, double floor_m2) {
-  const dvec3 all = directed_area_m2(model, walls) + directed_area_m2(model, ceiling) +
+  const dvec3 all = directed_area_m2(model, wall_surface) + directed_area_m2(model, ceiling) +
                     directed_area_m2(model, "RoofSurface");
   EXPECT_NEAR(all.x, 0.0, 0.02);
   EXPECT_NEAR(all.y, 0.0, 0.02);
@@ -33,7 +33,7 @@ void expect_closed(const Model& model, double floor_m2) {
 
 TEST(OsmPassages, StreetsLeadThroughBuildings) {
   TestMap map;
-  map.add_area(block, house);
+  map.add_area(long_house, house);
   map.add_line({{10, 0}, {10, 10}}, passage());
   map.add_line({{10, -30}, {10, 0}}, {{"highway", "service"}});
   const TestTown town = read(map);
@@ -42,13 +42,14 @@ TEST(OsmPassages, StreetsLeadThroughBuildings) {
   EXPECT_NEAR(bounds_of(*town.model, ceiling).min.z, 3.5f, 1e-3f);
   EXPECT_NEAR(bounds_of(*town.model, ceiling).max.z, 3.5f, 1e-3f);
   EXPECT_NEAR(directed_area_m2(*town.model, ceiling).z, -passage_width_m * 10.0, 0.1);
-  EXPECT_NEAR(area_m2(*town.model, walls), 60.0 * 12.0 - 2.0 * passage_width_m * 3.5 + 2.0 * 10.0 * 3.5, 1.0)
+  EXPECT_NEAR(area_m2(*town.model, wall_surface),
+              60.0 * 12.0 - 2.0 * passage_width_m * 3.5 + 2.0 * 10.0 * 3.5, 1.0)
       << "with walls on both sides of the passage";
   expect_closed(*town.model, 200.0 - passage_width_m * 10.0);
-  const float middle = bounds_of(*town.model, walls).centre().x;
+  const float middle = bounds_of(*town.model, wall_surface).centre().x;
   for (const Part& part : town.model->parts)
     for (const glm::vec3& p : part.mesh.positions)
-      if (part.object == walls && p.z < 3.4f) {
+      if (part.object == wall_surface && p.z < 3.4f) {
         EXPECT_GT(std::abs(p.x - middle), 0.49f * float(passage_width_m)) << "in the way";
       }
   EXPECT_EQ(town.model->roads.size(), 2u);
@@ -57,7 +58,7 @@ TEST(OsmPassages, StreetsLeadThroughBuildings) {
 TEST(OsmPassages, HeightsAreThoseOfTheTagsAboveTheGroundOfTheWay) {
   const auto top_m = [](const TestTags& tags, const GroundOnMap& ground) {
     TestMap map;
-    map.add_area(block, house);
+    map.add_area(long_house, house);
     map.add_line({{10, 0}, {10, 10}}, tags);
     const TestTown town = read(map, ground);
     EXPECT_TRUE(town.model) << to_string(town.model.errors());
@@ -100,31 +101,31 @@ TEST(OsmPassages, WaysThatBendMeetAndRunAskewLeaveAClosedBuilding) {
 
 TEST(OsmPassages, WaysBesideAndUnderRaisedPartsCutNothing) {
   TestMap map;
-  map.add_area(block, house);
+  map.add_area(long_house, house);
   map.add_line({{0, -3}, {20, -3}}, passage());
   map.add_area({{30, 0}, {50, 0}, {50, 10}, {30, 10}},
                {{"building", "yes"}, {"min_height", "4"}, {"height", "12"}});
   map.add_line({{40, 0}, {40, 10}}, passage());
   const TestTown town = read(map);
   ASSERT_TRUE(town.model) << to_string(town.model.errors());
-  EXPECT_NEAR(area_m2(*town.model, walls), 60.0 * 12.0 + 60.0 * 8.0, 1.0);
+  EXPECT_NEAR(area_m2(*town.model, wall_surface), 60.0 * 12.0 + 60.0 * 8.0, 1.0);
   EXPECT_NEAR(bounds_of(*town.model, ceiling).min.z, 4.0f, 1e-3f);
 }
 
 TEST(OsmPassages, LowBuildingsStayWholeWithAWarning) {
   TestMap map;
-  map.add_area(block, {{"building", "yes"}, {"height", "2.2"}});
+  map.add_area(long_house, {{"building", "yes"}, {"height", "2.2"}});
   map.add_line({{10, 0}, {10, 10}}, passage());
   const TestTown town = read(map);
   ASSERT_TRUE(town.model);
   EXPECT_NE(town.warnings.find("way 1: its walls are 2.2 m high, too low for the passage"), std::string::npos)
       << town.warnings;
-  EXPECT_NEAR(area_m2(*town.model, walls), 60.0 * 2.2, 0.5);
+  EXPECT_NEAR(area_m2(*town.model, wall_surface), 60.0 * 2.2, 0.5);
 }
 
 TEST(OsmPassages, ManyInOnePlaceAreLeftOutWithAWarning) {
   TestMap map;
-  for (int i = 0; i < 20; ++i) map.add_area(block, house);
+  for (int i = 0; i < 20; ++i) map.add_area(long_house, house);
   for (int i = 0; i < 2000; ++i) {
     const double x = 5.0 + 0.005 * i;
     map.add_line({{x, 0}, {20.0 - x, 10}}, passage());
@@ -149,7 +150,7 @@ TEST(OsmPassages, WallsInTheAirStandOnUndersides) {
   std::size_t feet = 0;
   for (const Part& part : town.model->parts)
     for (const glm::vec3& p : part.mesh.positions) {
-      if (!part.object.starts_with(walls) || p.z > 5.01f) continue;
+      if (!part.object.starts_with(wall_surface) || p.z > 5.01f) continue;
       ++feet;
       EXPECT_TRUE(std::ranges::find(undersides, p) != undersides.end());
     }

@@ -17,7 +17,7 @@ namespace {
 using glm::dvec2, glm::dvec3;
 using Faces = std::vector<OsmRoofFace>;
 
-constexpr double slope = 0.6;  // of gables and hips without a height: 31 degrees
+constexpr double usual_slope = 0.6;  // of gables and hips without a height: 31 degrees
 constexpr double skillion_slope = 0.25;
 constexpr double straight_m = 0.01;  // edges that are shorter are none
 
@@ -305,7 +305,7 @@ double usual_osm_roof_m(const OsmRoof& roof) {
   if (roof.tags.angle_deg >= flattest_deg && roof.tags.angle_deg <= steepest_deg)
     if (const auto run = run_m(roof)) return *run * std::tan(*roof.tags.angle_deg * std::numbers::pi / 180.0);
   const double side_m = std::sqrt(std::abs(area_m2(roof.corners)));
-  if (roof.skeleton) return slope * roof.skeleton->highest_m();
+  if (roof.skeleton) return usual_slope * roof.skeleton->highest_m();
   if (roof.shape == "skillion") {
     const dvec2 ends = reach(roof.corners, downhill(roof.tags, roof.corners));
     return std::min(skillion_slope * (ends.y - ends.x), 4.0);
@@ -313,9 +313,9 @@ double usual_osm_roof_m(const OsmRoof& roof) {
   if (roof.shape == "dome") return 0.5 * side_m;
   if (roof.shape == "onion") return 1.1 * side_m;
   if (roof.shape == "mansard") return std::min(0.35 * side_m, 4.5);
-  if (!has_ridge(roof.shape)) return 0.5 * slope * side_m;
+  if (!has_ridge(roof.shape)) return 0.5 * usual_slope * side_m;
   const bool is_steep = roof.shape == "gambrel" || roof.shape == "round";
-  return (is_steep ? 0.45 : 0.5 * slope) * shorter_side_m(roof.corners);
+  return (is_steep ? 0.45 : 0.5 * usual_slope) * shorter_side_m(roof.corners);
 }
 
 Faces osm_roof_faces(const OsmRoof& roof, double eaves_m, double top_m) {

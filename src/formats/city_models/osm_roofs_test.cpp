@@ -7,14 +7,14 @@
 #include <string>
 #include <string_view>
 
+#include "formats/city_models/test_rings.h"
+
 namespace parvis::scene {
 namespace {
 
 using glm::dvec2, glm::dvec3;
 
-const OsmRing rectangle{{0, 0}, {12, 0}, {12, 8}, {0, 8}};
 const OsmRing pentagon{{0, 0}, {10, 0}, {13, 6}, {5, 11}, {-3, 6}};
-const OsmRing l_shape{{0, 0}, {12, 0}, {12, 5}, {5, 5}, {5, 12}, {0, 12}};
 
 dvec3 area_of(const std::vector<dvec3>& points) {
   dvec3 area(0.0);

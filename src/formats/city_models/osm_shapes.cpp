@@ -11,7 +11,7 @@ using glm::dvec2, glm::dvec3;
 constexpr double same_point_m = 0.01;
 constexpr double max_mitre = 2.0;
 
-dvec2 right_of(dvec2 direction) { return {direction.y, -direction.x}; }
+dvec2 right_in_plan(dvec2 direction) { return {direction.y, -direction.x}; }
 
 }  // namespace
 
@@ -28,9 +28,9 @@ Sides sides_of(const std::vector<dvec3>& line, double left_m, double right_m, do
     const std::size_t last = points.size() - 1;
     const dvec2 out =
         glm::normalize(dvec2(points[std::min(i + 1, last)] - points[std::min(i + 1, last) - 1]));
-    const dvec2 sum = right_of(in) + right_of(out);
-    const dvec2 middle = glm::length(sum) > 1e-6 ? glm::normalize(sum) : right_of(out);
-    const double mitre = std::min(1.0 / std::max(glm::dot(middle, right_of(out)), 1e-3), max_mitre);
+    const dvec2 sum = right_in_plan(in) + right_in_plan(out);
+    const dvec2 middle = glm::length(sum) > 1e-6 ? glm::normalize(sum) : right_in_plan(out);
+    const double mitre = std::min(1.0 / std::max(glm::dot(middle, right_in_plan(out)), 1e-3), max_mitre);
     sides.left.emplace_back(dvec2(points[i]) + middle * (mitre * left_m), points[i].z + lift_m);
     sides.right.emplace_back(dvec2(points[i]) + middle * (mitre * right_m), points[i].z + lift_m);
   }

@@ -18,7 +18,7 @@ constexpr double parapet_m = 0.9, wall_m = 0.25;
 constexpr double below_way_m = 0.02;  // of a floor: carriageways lie on it
 constexpr double wall_step_m = 2.0;   // pieces of walls, each left out where another way leads through
 constexpr double dug_m = 0.05;        // what lies less deep is no trench
-constexpr double same_m = 0.01;
+constexpr double same_edge_m = 0.01;
 
 /// Half the width of a tunnel or trench; 0 for what has none.
 double half_trench_m(const OsmWay& way) {
@@ -62,7 +62,7 @@ class OpenWays {
              const dvec2 along = segment.b - segment.a;
              const double share = glm::dot(point - segment.a, along) / std::max(glm::dot(along, along), 1e-9);
              return share > 0.0 && share < 1.0 &&
-                    glm::distance(point, segment.a + share * along) < segment.half_m - wall_m - same_m;
+                    glm::distance(point, segment.a + share * along) < segment.half_m - wall_m - same_edge_m;
            });
   }
 

@@ -9,6 +9,7 @@
 
 #include "formats/city_models/osm_areas.h"
 #include "formats/city_models/test_osm.h"
+#include "formats/city_models/test_rings.h"
 #include "scene/data/test_scene.h"
 
 namespace parvis::scene {
@@ -18,8 +19,6 @@ using glm::dvec2, glm::vec2, glm::vec3;
 
 constexpr double eaves_m = 6.0;  // two levels
 
-const OsmRing l_shape{{0, 0}, {12, 0}, {12, 5}, {5, 5}, {5, 12}, {0, 12}};
-
 /// Buildings with these outlines, in metres; they are ways 1, 2, 3, ...
 TestTown read(const std::vector<OsmRing>& outlines, const std::string& shape) {
   TestMap map;
@@ -28,7 +27,7 @@ TestTown read(const std::vector<OsmRing>& outlines, const std::string& shape) {
   return scene::read(map);
 }
 
-constexpr const char* walls = "WallSurface 2-storeys";  // as building:levels says
+constexpr const char* two_storey_walls = "WallSurface 2-storeys";  // as building:levels says
 
 std::vector<vec3> positions(const Model& model, const std::string& object) {
   std::vector<vec3> found;
@@ -49,8 +48,8 @@ void expect_no_face_down(const Model& model, const std::string& object) {
 /// The roof covers the outline once and lies between eaves and ridge, and the walls reach it.
 void expect_house(const Model& model, double plan_m2, double ridge_m) {
   const glm::dvec3 roof_m2 = directed_area_m2(model, "RoofSurface"),
-                   walls_m2 = directed_area_m2(model, walls);
-  expect_no_face_down(model, "RoofSurface"), expect_no_face_down(model, walls);
+                   walls_m2 = directed_area_m2(model, two_storey_walls);
+  expect_no_face_down(model, "RoofSurface"), expect_no_face_down(model, two_storey_walls);
   EXPECT_NEAR(roof_m2.z, plan_m2, 0.005 * plan_m2);
   EXPECT_NEAR(glm::length(roof_m2 + walls_m2 - glm::dvec3(0.0, 0.0, roof_m2.z)), 0.0, 0.02)
       << "open elsewhere than below";
@@ -61,7 +60,7 @@ void expect_house(const Model& model, double plan_m2, double ridge_m) {
     highest_m = std::max(highest_m, double(point.z));
   }
   EXPECT_NEAR(highest_m, ridge_m, 0.02);
-  for (const vec3& point : positions(model, walls))
+  for (const vec3& point : positions(model, two_storey_walls))
     EXPECT_TRUE(
         point.z < 1e-3f ||
         std::ranges::any_of(roof, [&](const vec3& other) { return glm::distance(point, other) < 1e-3f; }))
@@ -75,7 +74,7 @@ TEST(OsmWings, HipsStandOnThem) {
   ASSERT_TRUE(house.model) << to_string(house.model.errors());
   EXPECT_EQ(house.warnings, "");
   expect_house(*house.model, area_m2(l_shape), l_ridge_m);
-  EXPECT_NEAR(area_m2(*house.model, walls), 48.0 * eaves_m, 1.5) << "all walls end at the eaves";
+  EXPECT_NEAR(area_m2(*house.model, two_storey_walls), 48.0 * eaves_m, 1.5) << "all walls end at the eaves";
 }
 
 TEST(OsmWings, GablesStandAtTheirEnds) {
@@ -83,7 +82,7 @@ TEST(OsmWings, GablesStandAtTheirEnds) {
   ASSERT_TRUE(house.model) << to_string(house.model.errors());
   EXPECT_EQ(house.warnings, "");
   expect_house(*house.model, area_m2(l_shape), l_ridge_m);
-  EXPECT_NEAR(area_m2(*house.model, walls), 48.0 * eaves_m + 2.0 * 0.5 * 5.0 * 1.5, 1.5);
+  EXPECT_NEAR(area_m2(*house.model, two_storey_walls), 48.0 * eaves_m + 2.0 * 0.5 * 5.0 * 1.5, 1.5);
 }
 
 TEST(OsmWings, PointsAlongSidesAndSpikesChangeNothing) {

@@ -139,11 +139,11 @@ double half_width_m(const OsmWay& way) {
   return says_yes(way.tags, "waterway") ? water_half_m : -1.0;
 }
 
-bool is_building(const OsmTags& tags) { return says_yes(tags, "building") && !is_underground(tags); }
+bool is_standing_building(const OsmTags& tags) { return says_yes(tags, "building") && !is_underground(tags); }
 
 /// Where maps often draw no hole in a wood for it.
 bool is_clearing(const OsmTags& tags) {
-  return is_building(tags) || tag(tags, "natural") == "water" || tag(tags, "amenity") == "parking" ||
+  return is_standing_building(tags) || tag(tags, "natural") == "water" || tag(tags, "amenity") == "parking" ||
          tag(tags, "leisure") == "pitch" || tag(tags, "leisure") == "playground";
 }
 
@@ -158,7 +158,7 @@ void keep_free(const OsmFile& osm, const OsmPlaces& place, CityAssembly& city, W
   }
   for (const OsmArea& area : OsmAreas(osm, place, city).find(is_clearing, "")) {
     trees.keep_out(area);
-    if (!is_building(*area.tags)) continue;
+    if (!is_standing_building(*area.tags)) continue;
     for (const OsmRing& ring : area.rings)
       for (std::size_t i = 0, k = ring.size() - 1; i < ring.size(); k = i++)
         lines.add(ring[k], ring[i], beside_wall_m);

@@ -18,10 +18,9 @@ constexpr std::array<double, 3> touching_distances_m{0.005, 1e-4, 1e-6};
 constexpr double shortest_edges = 4.0;                 // of an outline, in touching distances
 constexpr double parallel = 1e-9;                      // sine of the angle
 constexpr double soonest_m = 1e-10;                    // an event that is nearer has been handled
-constexpr double beside_m = 0.05;                      // of an edge's end: events that may be none do no harm
+constexpr double beside_end_m = 0.05;                  // of an edge's end: events that may be none do no harm
 constexpr double same_area = 1e-3, min_area_m2 = 1.0;  // of all faces and the outline
 
-double cross(dvec2 a, dvec2 b) { return a.x * b.y - a.y * b.x; }
 dvec2 left_of(dvec2 direction) { return {-direction.y, direction.x}; }
 
 /// A moving edge, or the piece of one between two events.
@@ -87,7 +86,7 @@ class Wavefront {
   void set_velocities() {
     for (Front& front : fronts_) {
       const dvec2 in = direction(fronts_[front.previous]), out = direction(front);
-      const double sine = cross(in, out);
+      const double sine = cross_in_plan(in, out);
       if (std::abs(sine) > parallel)
         front.velocity = (out - in) / sine;
       else if (glm::dot(in, out) > 0.0)
@@ -107,7 +106,8 @@ class Wavefront {
                    growth = glm::dot(end.velocity - front.velocity, along);
       if (growth < 0.0 && length / -growth > soonest_m) soonest = std::min(soonest, length / -growth);
       for (const Front& corner : fronts_) {
-        if (cross(direction(fronts_[corner.previous]), direction(corner)) >= 0.0) continue;  // not reflex
+        if (cross_in_plan(direction(fronts_[corner.previous]), direction(corner)) >= 0.0)
+          continue;  // not reflex
         if (&corner == &front || &corner == &end) continue;
         const double closing = 1.0 - glm::dot(corner.velocity, inward);
         const double step_m = glm::dot(corner.start - front.start, inward) / closing;
@@ -115,7 +115,7 @@ class Wavefront {
         const double hit = glm::dot(corner.start + step_m * corner.velocity, along),
                      from = glm::dot(front.start + step_m * front.velocity, along),
                      to = glm::dot(end.start + step_m * end.velocity, along);
-        if (hit > from - beside_m && hit < to + beside_m) soonest = step_m;
+        if (hit > from - beside_end_m && hit < to + beside_end_m) soonest = step_m;
       }
     }
     return soonest;
@@ -170,7 +170,7 @@ class Wavefront {
         const dvec2 offset = places[place].at - start;
         const double at = glm::dot(offset, along) / length;
         if (place == from || place == to || at <= 0.0 || at >= length) continue;
-        if (std::abs(cross(along, offset)) > touching_m_ * length) continue;
+        if (std::abs(cross_in_plan(along, offset)) > touching_m_ * length) continue;
         stops.emplace_back(at, place);
         places[place].is_event = true;
       }
@@ -206,7 +206,7 @@ class Wavefront {
       for (std::size_t k = 0; k < pieces.size(); ++k) {
         if (pieces[k].from != pieces[i].to) continue;
         const dvec2 out = directions_[std::size_t(pieces[k].edge)];
-        double clockwise = -std::atan2(cross(back, out), glm::dot(back, out));
+        double clockwise = -std::atan2(cross_in_plan(back, out), glm::dot(back, out));
         if (clockwise < parallel) clockwise += 2.0 * std::numbers::pi;
         if (clockwise < least) least = clockwise, fronts[i].next = k;
       }
@@ -258,9 +258,9 @@ class Wavefront {
     const auto at = [&](std::size_t i) {
       return dvec2(skeleton_.points[std::size_t(ring[i % ring.size()])]) - origin;
     };
-    if (ring.size() == 2) return cross(at(0), at(1));
+    if (ring.size() == 2) return cross_in_plan(at(0), at(1));
     double area = 0.0;
-    for (std::size_t i = 0; i < ring.size(); ++i) area += cross(at(i), at(i + 1));
+    for (std::size_t i = 0; i < ring.size(); ++i) area += cross_in_plan(at(i), at(i + 1));
     return area;
   }
 

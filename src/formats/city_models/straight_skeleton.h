@@ -8,6 +8,9 @@
 
 namespace parvis::scene {
 
+/// Twice the signed area of the triangle 0, a, b: positive where b is to the left of a.
+inline double cross_in_plan(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+
 /// The faces of a roof that rises from all edges of an outline with one slope.
 struct StraightSkeleton {
   /// In plan, metres; z: distance from the outline's edges at which the moving edges reach the point.

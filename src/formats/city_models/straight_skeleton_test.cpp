@@ -10,18 +10,17 @@
 
 #include "base/random.h"
 #include "formats/city_models/gables.h"
+#include "formats/city_models/test_rings.h"
 
 namespace parvis::scene {
 namespace {
 
 using glm::dvec2, glm::dvec3;
-using Ring = std::vector<dvec2>;
+using PlanRing = std::vector<dvec2>;
 
-const Ring rectangle{{0, 0}, {12, 0}, {12, 8}, {0, 8}};
-const Ring l_shape{{0, 0}, {12, 0}, {12, 5}, {5, 5}, {5, 12}, {0, 12}};
-const Ring t_shape{{0, 0}, {20, 0}, {20, 6}, {13, 6}, {13, 14}, {7, 14}, {7, 6}, {0, 6}};
-const Ring u_shape{{0, 0}, {20, 0}, {20, 15}, {14, 15}, {14, 6}, {6, 6}, {6, 15}, {0, 15}};
-const Ring block{{0, 0}, {20, 0}, {20, 20}, {0, 20}}, courtyard{{6, 6}, {6, 14}, {14, 14}, {14, 6}};
+const PlanRing t_shape{{0, 0}, {20, 0}, {20, 6}, {13, 6}, {13, 14}, {7, 14}, {7, 6}, {0, 6}};
+const PlanRing u_shape{{0, 0}, {20, 0}, {20, 15}, {14, 15}, {14, 6}, {6, 6}, {6, 15}, {0, 15}};
+const PlanRing city_block{{0, 0}, {20, 0}, {20, 20}, {0, 20}}, court{{6, 6}, {6, 14}, {14, 14}, {14, 6}};
 
 /// From a point to the line of a face's edge in plan.
 double distance_m(const StraightSkeleton& skeleton, const std::vector<int>& face, dvec3 point) {
@@ -66,7 +65,7 @@ TEST(StraightSkeleton, RidgesOfWingsLieAtHalfTheirWidth) {
 }
 
 TEST(StraightSkeleton, CourtyardsAreLeftOpen) {
-  const auto skeleton = straight_skeleton({block, courtyard});
+  const auto skeleton = straight_skeleton({city_block, court});
   ASSERT_TRUE(skeleton);
   expect_roof(*skeleton, 8, 1e-9);
   EXPECT_NEAR(skeleton->highest_m(), 3.0, 1e-9);
@@ -77,13 +76,13 @@ TEST(StraightSkeleton, RingsThatCrossOrAreTooLargeHaveNone) {
   EXPECT_FALSE(straight_skeleton({{{0, 0}, {10, 0}}}));
   EXPECT_FALSE(straight_skeleton({{{0, 0}, {0, 0}, {0, 0}}}));
   EXPECT_FALSE(straight_skeleton({{{0, 0}, {NAN, 0}, {3, 3}}}));
-  EXPECT_FALSE(straight_skeleton({Ring(max_skeleton_corners + 1, dvec2(1.0))}));
+  EXPECT_FALSE(straight_skeleton({PlanRing(max_skeleton_corners + 1, dvec2(1.0))}));
 }
 
 TEST(StraightSkeleton, StandsOnAnyOutline) {
   Random random(7);
   for (int outline = 0; outline < 300; ++outline) {
-    Ring star;
+    PlanRing star;
     const int corners = 3 + random.index(30);
     for (int i = 0; i < corners; ++i) {
       const double angle = 2.0 * std::numbers::pi * (i + double(random.uniform(0.0f, 0.8f))) / corners;
@@ -100,7 +99,7 @@ TEST(StraightSkeleton, StandsOnHousesThatWereDrawnByHand) {
   Random random(9);
   for (int outline = 0; outline < 300; ++outline) {
     const double angle = double(random.uniform(0.0f, 6.0f)), slip_m = outline % 3 == 0 ? 0.0 : 0.02;
-    Ring house;
+    PlanRing house;
     for (const dvec2& corner : outline % 2 == 0 ? t_shape : u_shape)
       house.push_back(dvec2(std::cos(angle) * corner.x - std::sin(angle) * corner.y,
                             std::sin(angle) * corner.x + std::cos(angle) * corner.y) +
@@ -114,7 +113,7 @@ TEST(StraightSkeleton, StandsOnHousesThatWereDrawnByHand) {
 
 TEST(Gables, StandAtTheEndsOfWings) {
   for (const auto& [ring, gables] : {std::pair(rectangle, 2), std::pair(l_shape, 2), std::pair(t_shape, 3),
-                                     std::pair(u_shape, 2), std::pair(block, 0)}) {
+                                     std::pair(u_shape, 2), std::pair(city_block, 0)}) {
     auto skeleton = straight_skeleton({ring});
     ASSERT_TRUE(skeleton);
     const double highest_m = skeleton->highest_m();

@@ -20,18 +20,18 @@ constexpr const char* header_in_memory = "/vsimem/parvis_header.dxf";
 constexpr const char* plan_in_memory = "/vsimem/parvis_plan.dxf";
 constexpr std::uint64_t max_header_bytes = 1 << 20;
 
-struct QuietGdal {
-  QuietGdal() {
+struct GdalInMemory {
+  GdalInMemory() {
     CPLPushErrorHandler(CPLQuietErrorHandler);
     CPLErrorReset();
   }
-  ~QuietGdal() {
+  ~GdalInMemory() {
     CPLPopErrorHandler();
     VSIUnlink(header_in_memory);
     VSIUnlink(plan_in_memory);
   }
-  QuietGdal(const QuietGdal&) = delete;
-  QuietGdal& operator=(const QuietGdal&) = delete;
+  GdalInMemory(const GdalInMemory&) = delete;
+  GdalInMemory& operator=(const GdalInMemory&) = delete;
 };
 
 /// Sets an integer variable of the header's text.
@@ -184,7 +184,7 @@ std::string dxf_name(const std::string& name) {
 Status write_dxf(const std::filesystem::path& file, const DxfPlan& plan) {
   static const bool is_ready = (GDALAllRegister(), true);
   static_cast<void>(is_ready);
-  const QuietGdal quiet;
+  const GdalInMemory quiet;
   if (Status status = write_header(); !status) return status;
   if (Status status = write_in_memory(plan); !status) return status;
   vsi_l_offset size = 0;

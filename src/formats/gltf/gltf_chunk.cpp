@@ -3,11 +3,6 @@
 #include "base/bounds.h"
 
 namespace parvis::scene {
-namespace {
-
-GltfChunk::Json array_of(glm::vec3 v) { return {v.x, v.y, v.z}; }
-
-}  // namespace
 
 int GltfChunk::add_positions(const std::vector<glm::vec3>& positions) {
   const int accessor = add_vectors(positions);

@@ -50,6 +50,8 @@ class GltfChunk {
   /// Appends bytes that no accessor reads, and returns their view.
   int add_bytes(std::string_view bytes);
 
+  static Json array_of(glm::vec3 v) { return {v.x, v.y, v.z}; }
+
   /// Writes accessors, views and the buffer, where there are any, into the JSON of the file.
   void describe(Json& json) const;
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }

@@ -12,14 +12,13 @@
 #include "base/files.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
+#include "formats/gltf/gltf_chunk.h"
 
 namespace parvis::scene {
 namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::json;
-
-Json array_of(glm::vec3 v) { return {v.x, v.y, v.z}; }
 
 bool uses_alpha(const Image8& image) {
   for (std::size_t i = 3; i < image.pixels.size(); i += 4)
@@ -93,7 +92,7 @@ Json volume_json(const Material& glass) {
   const float maximum = std::max({absorption_per_m.x, absorption_per_m.y, absorption_per_m.z});
   if (maximum > 0.0f) {
     volume["attenuationDistance"] = 1.0f / maximum;
-    volume["attenuationColor"] = array_of(glm::exp(-absorption_per_m / maximum));
+    volume["attenuationColor"] = GltfChunk::array_of(glm::exp(-absorption_per_m / maximum));
   }
   return volume;
 }
@@ -185,7 +184,7 @@ Json GltfMaterialWriter::material_json(const Material& material, const std::vect
   }
   const float strength = std::max({material.emission.x, material.emission.y, material.emission.z, 1.0f});
   if (material.emission != glm::vec3(0.0f)) {
-    json["emissiveFactor"] = array_of(material.emission / strength);
+    json["emissiveFactor"] = GltfChunk::array_of(material.emission / strength);
     if (strength > 1.0f) {
       use("KHR_materials_emissive_strength");
       json["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", strength}};

@@ -20,7 +20,7 @@ namespace parvis::scene {
 namespace {
 namespace fs = std::filesystem;
 
-Model read(const fs::path& file) {
+Model read_back(const fs::path& file) {
   Errors warnings;
   Result<Model> model = read_gltf(file, warnings);
   EXPECT_TRUE(model) << to_string(model.errors());
@@ -83,7 +83,7 @@ TEST(GltfWriter, SkinsMorphTargetsAndAnimationsReadTheSame) {
   const TestFolder folder;
   const Model model = flag();
   ASSERT_TRUE(write_gltf(folder.path() / "flag.glb", model));
-  const Model again = read(folder.path() / "flag.glb");
+  const Model again = read_back(folder.path() / "flag.glb");
   expect_same_shape(model, again);
   ASSERT_TRUE(again.parts.front().deformation);
   EXPECT_EQ(again.parts.front().deformation->weights, std::vector<float>{0.25f});
@@ -96,10 +96,10 @@ TEST(GltfWriter, FiguresThatMoveReadTheSame) {
   for (const char* name : {"CesiumMan/CesiumMan", "RiggedFigure/RiggedFigure", "Fox/Fox"}) {
     const auto file = shared_data(std::string("gltf_animated/") + name + ".gltf");
     if (!file) GTEST_SKIP() << "skipped: shared data absent";
-    const Model model = read(*file);
+    const Model model = read_back(*file);
     const fs::path written = folder.path() / (model.name + ".glb");
     ASSERT_TRUE(write_gltf(written, model));
-    expect_same_shape(model, read(written));
+    expect_same_shape(model, read_back(written));
   }
   expect_valid_gltf(folder.path());
 }
@@ -131,7 +131,7 @@ TEST(GltfWriter, ObjectsStandWhereTheSceneHasThem) {
   const TestFolder folder;
   const Scene scene = small_square();
   ASSERT_TRUE(write_gltf(folder.path() / "square.glb", all_of(scene), scene.cameras));
-  const Model again = read(folder.path() / "square.glb");
+  const Model again = read_back(folder.path() / "square.glb");
   Bounds expected;
   for (const Object& object : scene.objects) {
     const std::vector<glm::mat4> pose = object.pose.empty() ? rest_pose(*object.model) : object.pose;
@@ -155,7 +155,7 @@ TEST(GltfWriter, WhatIsABackdropAndWhatCastsNoShadowReadTheSame) {
   const TestFolder folder;
   const fs::path file = folder.path() / "place.glb";
   ASSERT_TRUE(write_gltf(file, model));
-  const Model found = read(file);
+  const Model found = read_back(file);
   ASSERT_EQ(found.parts.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(found.parts[i].casts_shadow, model.parts[i].casts_shadow) << found.parts[i].object;
@@ -167,7 +167,7 @@ TEST(GltfWriter, WhatIsABackdropAndWhatCastsNoShadowReadTheSame) {
   ASSERT_NE(bytes.find(mark), std::string::npos);
   bytes.replace(bytes.find(mark), mark.size(), "\"backdrop\":\"ab\"");
   ASSERT_TRUE(write_file(file, bytes));
-  EXPECT_FALSE(read(file).parts[2].is_backdrop);
+  EXPECT_FALSE(read_back(file).parts[2].is_backdrop);
 }
 
 TEST(GltfWriter, PaintedObjectsShareTheDataOfTheirMeshes) {
@@ -178,7 +178,7 @@ TEST(GltfWriter, PaintedObjectsShareTheDataOfTheirMeshes) {
   red.paint = std::make_shared<const std::vector<Material>>(1, matt({0.75f, 0.25f, 0.25f}));
   ASSERT_TRUE(write_gltf(folder.path() / "one.glb", std::vector<const Object*>{&plain}, {}));
   ASSERT_TRUE(write_gltf(folder.path() / "two.glb", std::vector<const Object*>{&plain, &red, &red}, {}));
-  const Model again = read(folder.path() / "two.glb");
+  const Model again = read_back(folder.path() / "two.glb");
   ASSERT_EQ(again.parts.size(), 3u);
   const auto count = [&](glm::vec3 colour) {
     return std::ranges::count_if(again.parts, [&](const Part& part) {
@@ -209,7 +209,7 @@ TEST(GltfWriter, PicturesOfOneNameAreKeptApartAndEqualOnesAreOne) {
     model.parts.back().material = texture + 1;
   }
   ASSERT_TRUE(write_gltf(folder.path() / "wall.glb", model));
-  const Model again = read(folder.path() / "wall.glb");
+  const Model again = read_back(folder.path() / "wall.glb");
   ASSERT_EQ(again.textures.size(), 2u);
   EXPECT_EQ(again.materials[2].base_colour_texture, again.materials[1].base_colour_texture);
   EXPECT_EQ(again.textures[1].image.pixels.front(), 90);
@@ -231,7 +231,7 @@ TEST(GltfWriter, PicturesOfLongAndEqualNamesAreWritten) {
   const std::string file = std::string(251, 'f') + ".glb";
   const Status status = write_gltf(folder.path() / file, model);
   ASSERT_TRUE(status) << to_string(status.errors());
-  const Model again = read(folder.path() / file);
+  const Model again = read_back(folder.path() / file);
   ASSERT_EQ(again.textures.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_EQ(again.textures[i].image.pixels.front(), 10 * (i + 1)) << "the picture of another";
@@ -250,7 +250,7 @@ TEST(GltfWriter, PicturesOfOthersAreNotWrittenOver) {
   ASSERT_FALSE(other) << "both have a_b_wall.png";
   EXPECT_NE(to_string(other.errors()).find("a_b_wall.png"), std::string::npos) << to_string(other.errors());
   EXPECT_FALSE(fs::exists(folder.path() / "a_b.glb"));
-  EXPECT_EQ(read(folder.path() / "a b.glb").textures.front().image.pixels.front(), 50);
+  EXPECT_EQ(read_back(folder.path() / "a b.glb").textures.front().image.pixels.front(), 50);
   EXPECT_TRUE(write_gltf(folder.path() / "a b.glb", painted(90))) << "its own picture changes";
   EXPECT_TRUE(write_gltf(folder.path() / "a_b.glb", painted(90))) << "the same picture serves both";
   ASSERT_TRUE(write_file(folder.path() / "mine_wall.png", "somebody's"));
@@ -302,7 +302,7 @@ TEST(GltfWriter, OwnDataIsReadBackAndOthersSeeTheModel) {
   const Model model = *model_of(quad({0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}), matt(glm::vec3(0.5f)));
   const GltfOwnData own{"PARVIS_test", R"({"version":3})", {{"a", "five!"}, {"b", std::string("\0\1\2", 3)}}};
   ASSERT_TRUE(write_gltf(file, model, own));
-  EXPECT_EQ(read(file).triangle_count(), 2u);
+  EXPECT_EQ(read_back(file).triangle_count(), 2u);
   const Result<GltfOwnData> back = read_gltf_own_data(file, "PARVIS_test");
   ASSERT_TRUE(back) << to_string(back.errors());
   EXPECT_EQ(back->json, own.json);

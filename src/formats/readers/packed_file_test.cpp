@@ -110,12 +110,12 @@ Result<FileContent> content_as_name(const std::filesystem::path& file, const Mod
   return FileContent{std::move(model), scene::FileAccount("digits")};
 }
 
-bool has_mark(std::string_view front) { return front.starts_with("digits"); }
+bool starts_with_digits(std::string_view front) { return front.starts_with("digits"); }
 
 TEST(PackedFile, ReadersThatTakePackedFilesAreAskedByTheNameBelowThePacking) {
   const TestFolder folder;
   Readers readers;
-  readers.add({".123"}, content_as_name, has_mark, TakesPacked::yes);
+  readers.add({".123"}, content_as_name, starts_with_digits, TakesPacked::yes);
   const auto read_by = [&](const char* name, const std::string& bytes) {
     Errors warnings;
     const Result<scene::Model> model = readers.read(folder.write(name, bytes), {}, warnings);

@@ -13,8 +13,8 @@ namespace parvis::scene {
 
 namespace {
 
-constexpr float finest_cell_m = 0.5f;
-constexpr float max_cells = 16e6f;
+constexpr float finest_ground_cell_m = 0.5f;
+constexpr float max_ground_cells = 16e6f;
 constexpr float largest_thing_m2 = 40.0f;  // that is no ground: cars, benches, crowns, kiosks
 constexpr float steepest = 0.25f;          // of ground: what rises faster is the edge of a thing
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
@@ -81,7 +81,7 @@ void GroundHeights::note_lanes(const RoadGraph& roads, float reach_m) {
   for (const Lane& lane : roads.lanes)
     for (const glm::vec3& p : lane.points) bounds.add(p);
   const glm::vec2 size = glm::vec2(bounds.size()) + 2.0f * reach_m;
-  const float cell_m = std::max(finest_cell_m, std::sqrt(size.x * size.y / max_cells));
+  const float cell_m = std::max(finest_ground_cell_m, std::sqrt(size.x * size.y / max_ground_cells));
   const glm::ivec2 cells = glm::ivec2(glm::ceil(size / cell_m)) + 1;
   lane_heights_m_ = GroundRaster<float>(cells.x, cells.y, cell_m, glm::vec2(bounds.min) - reach_m, unknown);
 

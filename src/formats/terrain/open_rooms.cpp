@@ -15,10 +15,10 @@ namespace {
 
 constexpr float room_m = 3.0f;            // height of a room, in which no land may be seen
 constexpr float lies_on_m = 0.02f;        // below a floor: what is nearer would flicker through it
-constexpr float steepest = 0.7f;          // cosine of 45 degrees: stairs and ramps are no floors
+constexpr float min_floor_cos = 0.7f;     // cosine of 45 degrees: stairs and ramps are no floors
 constexpr float largest_room_m = 500.0f;  // what is wider is no room's floor
 constexpr float smallest_m2 = 1e-5f;      // of what is left beside a floor
-constexpr float cell_m = 16.0f;
+constexpr float room_cell_m = 16.0f;
 constexpr float farthest_cell = 1e8f;       // meshes may reach farther than cells have numbers
 constexpr std::size_t max_floors = 20'000;  // over one triangle of land: more would take too long to cut out
 
@@ -125,7 +125,7 @@ class Levels {
 
  private:
   static glm::ivec2 cell_of(glm::vec2 point) {
-    return glm::ivec2(glm::clamp(glm::floor(point / cell_m), -farthest_cell, farthest_cell));
+    return glm::ivec2(glm::clamp(glm::floor(point / room_cell_m), -farthest_cell, farthest_cell));
   }
   static std::uint64_t key(glm::ivec2 cell) {
     return std::uint64_t(std::uint32_t(cell.x)) << 32u | std::uint32_t(cell.y);
@@ -146,7 +146,7 @@ class Levels {
 
   void note(std::array<glm::vec3, 3> corners) {
     glm::vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    if (!(std::abs(normal.z) > steepest * glm::length(normal)) || normal.z == 0.0f) return;
+    if (!(std::abs(normal.z) > min_floor_cos * glm::length(normal)) || normal.z == 0.0f) return;
     if (normal.z < 0.0f) std::swap(corners[1], corners[2]), normal = -normal;
     Bounds box;
     for (const glm::vec3& corner : corners) box.add(corner);

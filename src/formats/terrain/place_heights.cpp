@@ -16,8 +16,8 @@
 namespace parvis::scene {
 namespace {
 
-constexpr float finest_cell_m = 2.0f;
-constexpr float max_cells = 60'000.0f;
+constexpr float finest_place_cell_m = 2.0f;
+constexpr float max_place_cells = 60'000.0f;
 constexpr float finest_foot_cell_m = 8.0f;          // in each the lowest point counts
 constexpr float max_foot_cells = 4e6f;              // 16 x 16 km of the finest: beside a far model they widen
 constexpr float foot_slope = 0.12f, flat_m = 0.1f;  // of steep streets: what stands higher is no foot
@@ -27,7 +27,7 @@ constexpr float own_uneven_m = 0.5f;                // between them
 constexpr float min_shown_m = 2.0f;                 // of a building that stands in a pit, over the ground
 constexpr float near_ground_m = 24.0f;              // of known ground: feet say nothing new there
 constexpr float road_step_m = 2.0f;
-constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+constexpr float unknown_ground = std::numeric_limits<float>::quiet_NaN();
 
 bool stands_still(const Scene& scene, const Object& object) {
   return !object.is_dynamic && object.is_visible && !surrounds_place(scene, object);
@@ -51,7 +51,8 @@ void each_triangle(const Object& object, const Use& use) {
 
 /// A grid of half the resolution, each cell the mean of the known ones of four.
 HeightRaster halved(const HeightRaster& fine) {
-  HeightRaster coarse((fine.width + 1) / 2, (fine.height + 1) / 2, 2.0f * fine.cell_m, fine.origin, unknown);
+  HeightRaster coarse((fine.width + 1) / 2, (fine.height + 1) / 2, 2.0f * fine.cell_m, fine.origin,
+                      unknown_ground);
   for (int y = 0; y < coarse.height; ++y)
     for (int x = 0; x < coarse.width; ++x) {
       float sum = 0.0f;
@@ -162,15 +163,15 @@ PlaceHeights::PlaceHeights(const Scene& scene, std::span<const Road> roads, floa
     for (const glm::vec3& point : road.path) bounds.add(point);
   if (bounds.empty()) bounds.add(glm::vec3(0.0f));
   const glm::vec2 size = glm::vec2(bounds.size()) + 2.0f * margin_m;
-  const float cell_m = std::max(finest_cell_m, std::sqrt(size.x * size.y / max_cells));
+  const float cell_m = std::max(finest_place_cell_m, std::sqrt(size.x * size.y / max_place_cells));
   const glm::ivec2 cells = glm::ivec2(glm::ceil(size / cell_m)) + 1;
-  heights_m_ = HeightRaster(cells.x, cells.y, cell_m, glm::vec2(bounds.min) - margin_m, unknown);
+  heights_m_ = HeightRaster(cells.x, cells.y, cell_m, glm::vec2(bounds.min) - margin_m, unknown_ground);
   own_ground_ = Mask(heights_m_, 0);
   built_ = Mask(heights_m_, 0);
 
   const float foot_cell_m = std::max(finest_foot_cell_m, std::sqrt(size.x * size.y / max_foot_cells));
   const glm::ivec2 foot_cells = glm::ivec2(glm::ceil(size / foot_cell_m)) + 1;
-  HeightRaster feet_m(foot_cells.x, foot_cells.y, foot_cell_m, heights_m_.origin, unknown);
+  HeightRaster feet_m(foot_cells.x, foot_cells.y, foot_cell_m, heights_m_.origin, unknown_ground);
   HeightRaster tops_m = feet_m;
   for (const Object& object : scene.objects)
     if (stands_still(scene, object)) note_own_ground(object), note_feet(object, feet_m, tops_m);

@@ -15,23 +15,23 @@
 namespace parvis::scene {
 namespace {
 
-constexpr int width = 100, height = 80;
+constexpr int grid_width = 100, grid_height = 80;
 constexpr double nothing = -9999.0;
 
 /// A slope that rises by half a metre from column to column, with one hole.
 std::vector<float> slope() {
   std::vector<float> heights;
-  for (int row = 0; row < height; ++row)
-    for (int column = 0; column < width; ++column) heights.push_back(10.0f + 0.5f * float(column));
-  heights[std::size_t(40 * width + 50)] = float(nothing);
+  for (int row = 0; row < grid_height; ++row)
+    for (int column = 0; column < grid_width; ++column) heights.push_back(10.0f + 0.5f * float(column));
+  heights[std::size_t(40 * grid_width + 50)] = float(nothing);
   return heights;
 }
 
 void write_grid(const std::filesystem::path& file, const double* transform, int epsg,
                 std::vector<float> heights = slope()) {
   GDALAllRegister();
-  const GDALDatasetH grid =
-      GDALCreate(GDALGetDriverByName("GTiff"), file.c_str(), width, height, 1, GDT_Float32, nullptr);
+  const GDALDatasetH grid = GDALCreate(GDALGetDriverByName("GTiff"), file.c_str(), grid_width, grid_height, 1,
+                                       GDT_Float32, nullptr);
   if (transform) GDALSetGeoTransform(grid, const_cast<double*>(transform));
   if (epsg) {
     const OGRSpatialReferenceH map = OSRNewSpatialReference(nullptr);
@@ -41,9 +41,9 @@ void write_grid(const std::filesystem::path& file, const double* transform, int 
   }
   const GDALRasterBandH band = GDALGetRasterBand(grid, 1);
   GDALSetRasterNoDataValue(band, nothing);
-  EXPECT_EQ(
-      GDALRasterIO(band, GF_Write, 0, 0, width, height, heights.data(), width, height, GDT_Float32, 0, 0),
-      CE_None);
+  EXPECT_EQ(GDALRasterIO(band, GF_Write, 0, 0, grid_width, grid_height, heights.data(), grid_width,
+                         grid_height, GDT_Float32, 0, 0),
+            CE_None);
   GDALClose(grid);
 }
 
@@ -63,7 +63,7 @@ TEST(Terrain, AMapInMetresStandsWhereItSays) {
   EXPECT_NEAR(box.min.z + model->origin.z, 10.0, 1e-5);
   EXPECT_NEAR(box.size().z, 49.5f, 1e-4f);
   // each of the four cells about the hole keeps half of itself
-  EXPECT_EQ(model->triangle_count(), std::size_t(2 * (width - 1) * (height - 1) - 4));
+  EXPECT_EQ(model->triangle_count(), std::size_t(2 * (grid_width - 1) * (grid_height - 1) - 4));
   for (const Part& part : model->parts)
     for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
       const auto at = [&](std::size_t k) { return part.mesh.positions[part.mesh.indices[i + k]]; };
@@ -99,7 +99,7 @@ TEST(Terrain, AGridWithoutAPlaceNeedsItsCells) {
   EXPECT_NE(to_string(refused.errors()).find("give cell="), std::string::npos);
   const Result<Model> model = read_terrain(folder.path() / "bare.tif", 3.0, warnings);
   ASSERT_TRUE(model) << to_string(model.errors());
-  EXPECT_NEAR(bounds(*model).size().x, 3.0f * float(width - 1), 1e-3f);
+  EXPECT_NEAR(bounds(*model).size().x, 3.0f * float(grid_width - 1), 1e-3f);
   EXPECT_NEAR(bounds(*model).centre().x, 0.0f, 1e-3f);
   EXPECT_EQ(model->origin, glm::dvec3(0.0));
 }
@@ -116,7 +116,7 @@ TEST(Terrain, OtherFilesAndEmptyGridsAreRefused) {
       told(folder.write("other.tif", "<VRTDataset rasterXSize=\"9\" rasterYSize=\"9\"/>")).find("no GeoTIFF"),
       std::string::npos);
   write_grid(folder.path() / "holes.tif", nullptr, 0,
-             std::vector<float>(std::size_t(width * height), float(nothing)));
+             std::vector<float>(std::size_t(grid_width * grid_height), float(nothing)));
   EXPECT_NE(told(folder.path() / "holes.tif").find("all holes"), std::string::npos);
 }
 

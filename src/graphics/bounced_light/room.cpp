@@ -14,9 +14,8 @@
 namespace parvis::bounced_light {
 namespace {
 
-using namespace scene::attribute;
-
 scene::NodeSchema bounced_light_schema() {
+  using namespace scene::attribute;
   return {
       .type = "bouncedLight",
       .help =

@@ -17,7 +17,6 @@ namespace {
 
 using glm::ivec3, glm::vec3, glm::vec4;
 
-constexpr float pi_f = 3.14159265f;
 constexpr float max_cells = 150'000.0f;
 /// Cells along each axis: drivers take 3D textures of 2,048 texels, and light has three for each cell upward.
 const vec3 max_side(2048.0f, 2048.0f, 682.0f);
@@ -255,7 +254,7 @@ float Transfer::lamp_share(const shading::Lamp& lamp, std::size_t point, const s
 /// Of each patch by sun and sky.
 std::vector<vec3> Transfer::direct_irradiance(const scene::Sun& sun, const shading::SkyLight& sky) const {
   const auto& directions = directions_of_sky();
-  constexpr float solid_angle = 2.0f * pi_f / float(sky_directions);
+  constexpr float solid_angle = 2.0f * glm::pi<float>() / float(sky_directions);
   const float level = shading::sky_level(0.35f, float(sky.levels.size()));  // as wide as a direction
   std::array<vec3, sky_directions> sky_light;
   for (std::size_t d = 0; d < directions.size(); ++d)
@@ -310,7 +309,7 @@ void Transfer::gather(const std::vector<vec4>& radiance, shading::BouncedLight& 
           const vec4 from = radiance[std::size_t(std::int64_t(seen[r]) + 1)];
           sum += from, along += from.w * ray_directions[r];
         }
-        light.lobes[air_[i]] = pi_f / float(rays_) * vec4(2.0f, 2.0f, 2.0f, 1.0f) * along;
+        light.lobes[air_[i]] = glm::pi<float>() / float(rays_) * vec4(2.0f, 2.0f, 2.0f, 1.0f) * along;
         light.colours[air_[i]] = sum.w > 0.0f ? vec3(sum) / sum.w : vec3(1.0f);
       },
       256);
@@ -402,7 +401,7 @@ shading::BouncedLight Transfer::light(const scene::Sun& sun, const shading::SkyL
           const vec3 again = bounce == 0
                                  ? vec3(0.0f)
                                  : bounced_irradiance(light.cell(patch.position, patch.normal), patch.normal);
-          const vec3 out = patch.albedo / pi_f * (direct[i] + again);
+          const vec3 out = patch.albedo / glm::pi<float>() * (direct[i] + again);
           radiance[1 + i] = vec4(out, luminance(out));
         },
         256);

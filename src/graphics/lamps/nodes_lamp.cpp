@@ -13,11 +13,8 @@
 namespace parvis::lamps {
 namespace {
 
-using namespace scene::attribute;
-
-constexpr float pi_f = 3.14159265f;
-
 scene::NodeSchema lamp_schema() {
+  using namespace scene::attribute;
   scene::NodeSchema schema{
       .type = "lamp",
       .help =
@@ -65,7 +62,7 @@ scene::NodeSchema lamp_schema() {
 /// W/sr of each channel: as bright as the flux says, weighted by the eye.
 glm::vec3 intensity_of(const scene::Node& node, float half_angle) {
   const glm::vec3 colour = node.vec3("colour");
-  const float solid_angle = 2.0f * pi_f * (1.0f - std::cos(half_angle));
+  const float solid_angle = 2.0f * glm::pi<float>() * (1.0f - std::cos(half_angle));
   const float candela = float(node.number("flux_lm")) / solid_angle;
   return candela / float(light::lumens_per_watt) / luminance(colour) * colour;
 }

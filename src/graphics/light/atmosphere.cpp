@@ -10,7 +10,6 @@
 namespace parvis::light {
 namespace {
 
-constexpr float pi_f = std::numbers::pi_v<float>;
 /// Rays of a projection: Gauss-Legendre points of the cosine to the vertical, and turns on one side of the
 /// sun's plane.
 constexpr int ray_cosines = 16, ray_turns = 6, ray_steps = 16;
@@ -141,11 +140,11 @@ Spectrum Atmosphere::ground_light(glm::dvec3 normal, glm::dvec3 to_sun) const {
   const Field field = field_at(r, sun_mu);
   // Irradiance of a horizontal plane by harmonics convolved with the cosine (Ramamoorthi and Hanrahan 2001).
   const std::array<float, harmonics> up = basis(0.0f, 1.0f);
-  Spectrum irradiance =
-      (pi_f * up[0]) * field[0] + (2.0943951f * up[1]) * field[1] + (0.7853982f * up[3]) * field[3];
+  Spectrum irradiance = (glm::pi<float>() * up[0]) * field[0] + (2.0943951f * up[1]) * field[1] +
+                        (0.7853982f * up[3]) * field[3];
   for (float& value : irradiance.values) value = std::max(value, 0.0f);
   irradiance += float(std::max(sun_mu, 0.0)) * sunlight(coefficients_, r, sun_mu);
-  return float(air_.ground_albedo) / pi_f * irradiance;
+  return float(air_.ground_albedo) / glm::pi<float>() * irradiance;
 }
 
 Atmosphere::Ray Atmosphere::ray_from(double r, double mu, int steps) const {

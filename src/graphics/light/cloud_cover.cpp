@@ -10,15 +10,12 @@ namespace parvis::light {
 namespace {
 
 constexpr double cloud_height_m = 2000.0;
-constexpr float pi_f = 3.14159265f;
 /// Of a cumulus, its lit and its shaded side taken together, and of land.
 constexpr float cloud_albedo = 0.4f, land_albedo = 0.2f;
 /// Mean luminance of what a photograph shows.
 struct Means {
   float cloud, land;
 };
-
-glm::vec3 displayable(glm::vec3 xyz) { return glm::max(rec709_from_xyz(xyz), glm::vec3(0.0f)); }
 
 glm::vec3 pixel(const ImageF& picture, int x, int y) {
   const float* p =
@@ -40,7 +37,7 @@ Means means_of(const ImageF& dome) {
   for (int y = 0; y < dome.height; y += step)
     for (int x = 0; x < dome.width; x += step) {
       const glm::vec3 colour = pixel(dome, x, y);
-      const double weight = std::sin((y + 0.5) / dome.height * double(pi_f)),
+      const double weight = std::sin((y + 0.5) / dome.height * double(glm::pi<float>())),
                    light = std::min(double(luminance(colour)), 1e3);
       if (y < dome.height / 2) {
         cloud += weight * double(cloud_share(colour)) * light, cover += weight * double(cloud_share(colour));
@@ -72,15 +69,15 @@ CloudLight::CloudLight(const SkyModel& sky, const Air& air, const ImageF& dome, 
 }
 
 glm::vec3 CloudLight::with_dome(glm::vec3 clear, glm::vec3 direction) const {
-  const float u = 0.5f + (std::atan2(direction.x, direction.y) - heading_) / (2.0f * pi_f);
+  const float u = 0.5f + (std::atan2(direction.x, direction.y) - heading_) / (2.0f * glm::pi<float>());
   const glm::vec3 seen =
-      bilinear(dome_, u - std::floor(u), std::acos(std::clamp(direction.z, -1.0f, 1.0f)) / pi_f);
-  if (direction.z <= 0.0f) return seen / mean_land_ * land_albedo / pi_f * ground_;
+      bilinear(dome_, u - std::floor(u), std::acos(std::clamp(direction.z, -1.0f, 1.0f)) / glm::pi<float>());
+  if (direction.z <= 0.0f) return seen / mean_land_ * land_albedo / glm::pi<float>() * ground_;
   // Clouds let light through toward the viewer when they stand before the sun; a low sun lights their sides.
   const float through = 0.5f + 0.9f * std::pow(std::max(glm::dot(direction, to_sun_), 0.0f), 6.0f);
   const float lit = 0.45f + 0.55f * std::sqrt(std::max(to_sun_.z, 0.0f));
   const float shape = std::min(luminance(seen) / mean_cloud_, 2.0f);
-  const glm::vec3 cloud = cloud_albedo / pi_f * shape * (through * lit * sun_ + 0.9f * sky_);
+  const glm::vec3 cloud = cloud_albedo / glm::pi<float>() * shape * (through * lit * sun_ + 0.9f * sky_);
   const float near_horizon =
       glm::smoothstep(0.02f, 0.10f, direction.z);  // haze looks like cloud there, and hides it
   return glm::mix(clear, cloud, cloud_share(seen) * near_horizon);

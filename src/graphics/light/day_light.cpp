@@ -30,8 +30,6 @@ constexpr float lamps_on = float(60.0 / lumens_per_watt);
 /// 10 to 20 for those of shops.
 constexpr float lit_street = float(7.5 / lumens_per_watt);
 
-glm::vec3 displayable(glm::vec3 xyz) { return glm::max(rec709_from_xyz(xyz), glm::vec3(0.0f)); }
-
 /// A picture of all directions; `colour_at` gets one, and where it lies in the picture.
 template <class ColourAt>
 ImageF equirectangular(int width_px, const ColourAt& colour_at) {

@@ -192,7 +192,7 @@ std::vector<glm::vec3> shown_vertices(const scene::Object& path, int material) {
   return shown;
 }
 
-constexpr int horizon = 0, of_days = 1, of_today = 2, of_sun = 3;  // materials of sun_path_model
+constexpr int horizon = 0, of_days = 1, of_today = 2, of_sun_today = 3;  // materials of sun_path_model
 
 glm::vec3 middle_of(const std::vector<glm::vec3>& points) {
   Bounds bounds;
@@ -220,7 +220,7 @@ TEST(SunPathNode, ArcsStandWhereTheSunGoes) {
   EXPECT_LT(nearest, 0.02f) << "the bead at 15 o'clock";
   EXPECT_NEAR(top, std::sin(glm::radians(69.74f)), 0.02f) << "midsummer's noon";
   EXPECT_TRUE(shown_vertices(path, of_today).empty()) << "today is the day that the node names";
-  EXPECT_LT(glm::distance(middle_of(shown_vertices(path, of_sun)), loaded->scene.sun.direction_to_sun),
+  EXPECT_LT(glm::distance(middle_of(shown_vertices(path, of_sun_today)), loaded->scene.sun.direction_to_sun),
             1e-3f);
   EXPECT_EQ(path.world_from_model[3].x, 5.0f);
   EXPECT_EQ(path.world_from_model[2].z, 10.0f);
@@ -232,13 +232,13 @@ TEST(SunPathNode, TheSunIsLargerThanTheHoursAndSets) {
   const auto night = load(folder, "dayLight(timeOfDay=1)\nsunPath()\n");
   ASSERT_TRUE(night) << to_string(night.errors());
   const scene::Object& path = night->scene.objects.front();
-  EXPECT_TRUE(shown_vertices(path, of_sun).empty());
+  EXPECT_TRUE(shown_vertices(path, of_sun_today).empty());
   float bead = 1e9f, sun = 0.0f;  // the smallest of each
   for (const scene::Part& part : path.model->parts) {
     const glm::vec3 size = part.mesh.bounds().size();
     const bool is_bead = part.material == of_days && size.x == size.z;
     if (is_bead) bead = std::min(bead, size.x);
-    if (part.material == of_sun) sun = size.x;
+    if (part.material == of_sun_today) sun = size.x;
   }
   EXPECT_GT(sun, 2.0f * bead);
 }
@@ -249,7 +249,7 @@ TEST(SunPathNode, PolarNightHasTheHorizonAloneAndWrongDaysAreNamed) {
       load(folder, "dayLight(latitude=80, longitude=20, julianDay=350)\nsunPath(julianDay=355)\n");
   ASSERT_TRUE(dark) << to_string(dark.errors());
   const scene::Object& path = dark->scene.objects.front();
-  for (const int material : {of_days, of_today, of_sun})
+  for (const int material : {of_days, of_today, of_sun_today})
     EXPECT_TRUE(shown_vertices(path, material).empty()) << material;
   EXPECT_FALSE(shown_vertices(path, horizon).empty());
   // What is put away lies inside the ring, which is 0.002 thick.
@@ -279,7 +279,7 @@ class RunningSunPath {
   scene::Scene& scene() { return loaded_->scene; }
   action::SceneClock& clock() { return *clock_; }
   const scene::Object& path() const { return loaded_->scene.objects.front(); }
-  glm::vec3 sun() const { return middle_of(shown_vertices(path(), of_sun)); }
+  glm::vec3 sun() const { return middle_of(shown_vertices(path(), of_sun_today)); }
   void send(const std::string& target, const std::string& message) {
     const Status status = clock_->send(target, message);
     EXPECT_TRUE(status) << to_string(status.errors());

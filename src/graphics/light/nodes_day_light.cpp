@@ -11,8 +11,6 @@
 namespace parvis::light {
 namespace {
 
-using namespace scene::attribute;
-
 using scene::AttributeSchema;
 
 AttributeSchema live_number(std::string name, std::string help, std::string fallback, std::string unit,
@@ -31,6 +29,7 @@ AttributeSchema live_integer(std::string name, std::string help, std::string fal
 }
 
 scene::NodeSchema day_light_schema() {
+  using namespace scene::attribute;
   return {.type = "dayLight",
           .help =
               "Sun and sky of a place on the earth at an hour: in place of sun(...) and sky(...). Sets the "
@@ -80,6 +79,7 @@ void build_day_light(const scene::Node& node, scene::SceneBuilder& builder) {
 }
 
 scene::NodeSchema sky_dome_schema() {
+  using namespace scene::attribute;
   return {.type = "skyDome",
           .help =
               "Clouds and land of a photographed sky, under the light of dayLight: cloud is where the "

@@ -9,7 +9,6 @@
 namespace parvis::light {
 namespace {
 
-constexpr float pi = 3.14159265f;
 /// Of surfaces that rooms draw by themselves: photographs of walls.
 constexpr float wall_albedo = 0.35f;
 constexpr std::size_t points_per_face = 8;
@@ -43,7 +42,7 @@ OwnFaces::OwnFaces(const reference::RayScene& rays, int object, const SkyTable& 
     first_.resize(std::max(first_.size(), std::size_t(place->part) + 1));
     first_[std::size_t(place->part)] = triangles_.size();
     const Mesh& mesh = *place->mesh;
-    const glm::vec3 given_back = albedo_of(*place) / pi;
+    const glm::vec3 given_back = albedo_of(*place) / glm::pi<float>();
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       const auto corner = [&](std::size_t k) {
         return glm::vec3(place->world_from_mesh * glm::vec4(mesh.positions[mesh.indices[i + k]], 1.0f));

@@ -10,11 +10,7 @@
 #include "scene/data/scene.h"
 
 namespace parvis::light {
-namespace {
-
-glm::vec3 displayable(glm::vec3 xyz) { return glm::max(rec709_from_xyz(xyz), glm::vec3(0.0f)); }
-
-}  // namespace
+namespace {}  // namespace
 
 SkyTable::SkyTable(const SkyModel& sky)
     : to_sun_(sky.to_sun()), sun_irradiance_(displayable(sky.sun_irradiance_xyz())) {

@@ -21,8 +21,6 @@ struct Lookup {
   vec3 sky_view_texel(int layer, ivec2 place) const {
     return vec3(texels[(layer * SkyView::rows + place.y) * SkyView::columns + place.x]);
   }
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION
 #include "graphics/light/sky_view.glsl"
 };
 

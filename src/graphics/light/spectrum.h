@@ -61,6 +61,8 @@ inline constexpr double lumens_per_watt = 683.0;
 /// Linear Rec. 709 of XYZ and back (IEC 61966-2-1, white D65). Colours outside Rec. 709 have negative
 /// channels.
 glm::vec3 rec709_from_xyz(glm::vec3 xyz);
+/// The same with negative channels set to 0.
+inline glm::vec3 displayable(glm::vec3 xyz) { return glm::max(rec709_from_xyz(xyz), glm::vec3(0.0f)); }
 /// CIE 1931 XYZ of linear Rec. 709.
 glm::vec3 xyz_from_rec709(glm::vec3 rgb);
 

@@ -21,12 +21,12 @@
 namespace parvis::light {
 namespace {
 
-const SunPeriod equinox{.place = {.day_of_year = 80}, .first_day = 80, .last_day = 80};
+const SunPeriod at_equinox{.place = {.day_of_year = 80}, .first_day = 80, .last_day = 80};
 
 TEST(SunHours, AnOpenPlainHasTheWholeDay) {
   const scene::Scene scene = box_on_a_plain({20, 20, 0}, {21, 21, 1});
   const reference::RayScene rays(scene);
-  const std::vector<float> hours = sun_hours(rays, {{{-20, -20, 0.02f}, {0, 0, 1}}}, equinox);
+  const std::vector<float> hours = sun_hours(rays, {{{-20, -20, 0.02f}, {0, 0, 1}}}, at_equinox);
   EXPECT_NEAR(hours[0], 12.1f, 0.1f);
 }
 
@@ -38,7 +38,7 @@ TEST(SunHours, WallsFaceTheirHalfOfTheDay) {
                                               {{5.02f, 0, 10}, {1, 0, 0}},
                                               {{-5.02f, 0, 10}, {-1, 0, 0}},
                                               {{0, 5.02f, 10}, {0, 1, 0}}},
-                                             equinox);
+                                             at_equinox);
   EXPECT_GT(hours[0], 11.5f);          // the south has all but minutes after sunrise and before sunset
   EXPECT_NEAR(hours[1], 6.05f, 0.1f);  // the east has the morning
   EXPECT_NEAR(hours[1] + hours[2], 12.1f, 0.1f);
@@ -52,7 +52,7 @@ TEST(SunHours, TheShadowOfAWallIsWhereTrigonometryPutsIt) {
   const scene::Scene scene = box_on_a_plain({-2000, -1, 0}, {2000, 0, 10});
   const reference::RayScene rays(scene);
   const std::vector<float> hours =
-      sun_hours(rays, {{{0, 6.0f, 0.02f}, {0, 0, 1}}, {{0, 10.2f, 0.02f}, {0, 0, 1}}}, equinox);
+      sun_hours(rays, {{{0, 6.0f, 0.02f}, {0, 0, 1}}, {{0, 10.2f, 0.02f}, {0, 0, 1}}}, at_equinox);
   EXPECT_LT(hours[0], 1.5f);
   EXPECT_GT(hours[1], 10.5f);
 }
@@ -63,8 +63,8 @@ TEST(SunHours, AgreesWithRaysEveryMinute) {
   std::vector<SunPoint> points;
   for (float x = -28; x < 28; x += 3)
     for (float y = -28; y < 28; y += 3) points.push_back({{x, y, 0.02f}, {0, 0, 1}});
-  const std::vector<float> quick = sun_hours(rays, points, equinox),
-                           truth = sun_hours_by_minutes(rays, points, equinox);
+  const std::vector<float> quick = sun_hours(rays, points, at_equinox),
+                           truth = sun_hours_by_minutes(rays, points, at_equinox);
   const auto error_percent = [&](const std::vector<float>& hours) {
     double off = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < hours.size(); ++i)
@@ -113,7 +113,7 @@ TEST(SunStudy, PhotographedSurfacesHaveHours) {
                                       traced.add(wall, std::make_shared<Plaster>(), glm::mat4(1.0f), {});
                                     },
                                 .is_recorded = true});
-  const SunStudyOptions options{.period = equinox, .cell_m = 1.0, .area = glm::dvec4(-3, -3, 9, 3)};
+  const SunStudyOptions options{.period = at_equinox, .cell_m = 1.0, .area = glm::dvec4(-3, -3, 9, 3)};
   const Result<SunStudy> study = study_sun(scene, options);
   ASSERT_TRUE(study) << to_string(study.errors());
   ASSERT_FALSE(study->surfaces.positions.empty());
@@ -131,7 +131,7 @@ TEST(SunStudy, ABackdropHidesNoSun) {
   sky->indices = {0, 1, 2, 0, 2, 3};
   const auto hours = [&](const scene::Scene& scene, bool is_backdrop) {
     const Result<SunStudy> study = study_sun(
-        scene, {.period = equinox, .cell_m = 2.0, .area = glm::dvec4(-9, -9, 9, 9), .has_facades = true});
+        scene, {.period = at_equinox, .cell_m = 2.0, .area = glm::dvec4(-9, -9, 9, 9), .has_facades = true});
     EXPECT_TRUE(study) << to_string(study.errors());
     EXPECT_LT(study->surfaces.bounds().max.z, is_backdrop ? 2.0f : 91.0f);
     return study->cells.front().position.z < 1.0f ? study->cells.front().hours : 0.0f;
@@ -166,7 +166,7 @@ TEST(SunStudy, ABackdropHidesNoSun) {
 TEST(SunStudy, PlanTableAndModel) {
   const scene::Scene scene = box_on_a_plain({-4, -3, 0}, {5, 6, 14});
   const Result<SunStudy> study =
-      study_sun(scene, {.period = equinox, .cell_m = 2.0, .area = {}, .has_facades = true});
+      study_sun(scene, {.period = at_equinox, .cell_m = 2.0, .area = {}, .has_facades = true});
   ASSERT_TRUE(study) << to_string(study.errors());
   EXPECT_EQ(study->columns, 30);
   EXPECT_EQ(study->rows, 30);
@@ -231,7 +231,7 @@ TEST(SunStudy, ACourtyardWithoutSunBreaksTheRule) {
   // A deck over most of the plain.
   const scene::Scene scene = box_on_a_plain({-29, -29, 3}, {29, 29, 60});
   const Result<SunStudy> study =
-      study_sun(scene, {.period = equinox, .cell_m = 1.0, .area = {}, .has_facades = false});
+      study_sun(scene, {.period = at_equinox, .cell_m = 1.0, .area = {}, .has_facades = false});
   ASSERT_TRUE(study) << to_string(study.errors());
   EXPECT_TRUE(study->surfaces.indices.empty());
   EXPECT_LT(open_space_rule(*study).share, 1.0);
@@ -239,11 +239,12 @@ TEST(SunStudy, ACourtyardWithoutSunBreaksTheRule) {
 
 TEST(SunStudy, RefusesWhatItCannotHold) {
   const scene::Scene scene = box_on_a_plain({-4, -3, 0}, {5, 6, 14});
-  const auto study = study_sun(scene, {.period = equinox, .cell_m = 0.001, .area = {}, .has_facades = true});
+  const auto study =
+      study_sun(scene, {.period = at_equinox, .cell_m = 0.001, .area = {}, .has_facades = true});
   ASSERT_FALSE(study);
   EXPECT_NE(study.errors().front().message.find("take a larger cell"), std::string::npos);
   EXPECT_FALSE(
-      study_sun(scene::Scene(), {.period = equinox, .cell_m = 2.0, .area = {}, .has_facades = true}));
+      study_sun(scene::Scene(), {.period = at_equinox, .cell_m = 2.0, .area = {}, .has_facades = true}));
 }
 
 /// A level slab of one quad that faces up.
@@ -270,7 +271,7 @@ scene::Scene wall_and_roof() {
 
 Result<SunStudy> study_judging(const JudgedGround& judged) {
   return study_sun(wall_and_roof(),
-                   {.period = equinox, .cell_m = 1.0, .area = {}, .has_facades = false, .judged = judged});
+                   {.period = at_equinox, .cell_m = 1.0, .area = {}, .has_facades = false, .judged = judged});
 }
 
 TEST(JudgedGround, AnOutlineIsJudgedByItself) {

@@ -25,7 +25,7 @@ namespace parvis::light {
 namespace {
 
 constexpr std::size_t max_cells = 16'000'000, max_vertices = 12'000'000;
-constexpr float lift_m = 0.02f;        // rays start so far off their surface
+constexpr float study_lift_m = 0.02f;  // rays start so far off their surface
 constexpr float ground_rise_m = 2.5f;  // what lies higher above the lowest surface around is built
 constexpr double ground_reach_m = 20.0;
 
@@ -115,7 +115,7 @@ std::optional<SurfaceBelow> surface_below(const reference::RayScene& rays, glm::
 /// Whether something faces down over a point that rays from above have passed: a building inside out, or a
 /// roof of one side.
 bool is_below_backs(const reference::RayScene& rays, glm::vec3 ground) {
-  const auto hit = rays.nearest_hit({ground + glm::vec3(0, 0, lift_m), {0, 0, 1}, 1e-4f, 1e30f});
+  const auto hit = rays.nearest_hit({ground + glm::vec3(0, 0, study_lift_m), {0, 0, 1}, 1e-4f, 1e30f});
   return hit && is_solid(*hit->place);
 }
 
@@ -282,7 +282,7 @@ Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& opt
   return made;
 }
 
-SunPoint lifted(glm::vec3 position, glm::vec3 normal) { return {position + lift_m * normal, normal}; }
+SunPoint lifted(glm::vec3 position, glm::vec3 normal) { return {position + study_lift_m * normal, normal}; }
 
 OpenSpaceRule open_space_rule(const SunStudy& study) {
   std::size_t open = 0, sunny = 0;

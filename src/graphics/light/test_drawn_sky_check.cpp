@@ -71,8 +71,7 @@ Result<DrawnSkyError> drawn_sky_error(SkyKind kind, double turbidity, double ele
         const glm::vec3 direction = reference::camera_ray(camera, size, size, at).direction;
         value = shading::sky_radiance(expected_sky, direction, 0.0f);
         mean += double(value.y) / double(size * size);
-        const glm::vec3 model =
-            glm::max(rec709_from_xyz((*sky)->sky_radiance_xyz(turned * direction)), glm::vec3(0.0f));
+        const glm::vec3 model = displayable((*sky)->sky_radiance_xyz(turned * direction));
         const glm::vec3 off = glm::abs(glm::vec3(drawn[i]) - model);
         of_pixels.emplace_back(double(off.x + off.y + off.z) / 3.0, double(model.y));
         off_model += of_pixels.back().x, luminance_of_all += of_pixels.back().y;

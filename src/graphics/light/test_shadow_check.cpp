@@ -8,7 +8,7 @@
 namespace parvis::light {
 namespace {
 
-constexpr float lift_m = 2e-3f;
+constexpr float checked_lift_m = 2e-3f;
 constexpr double max_offset_m = 0.5;
 
 struct Pixel {
@@ -71,7 +71,7 @@ ShadowErrors check_shadows(const reference::RayScene& scene, const Bounds& caste
   parallel_for(
       pixels.size(),
       [&](std::size_t i) {
-        truth[i] = is_shaded(scene, pixels[i].position + lift_m * pixels[i].normal, to_sun) ? 1 : 0;
+        truth[i] = is_shaded(scene, pixels[i].position + checked_lift_m * pixels[i].normal, to_sun) ? 1 : 0;
       },
       64);
   for (std::size_t m = 0; m < shadow_method_names.size(); ++m) {
@@ -83,7 +83,7 @@ ShadowErrors check_shadows(const reference::RayScene& scene, const Bounds& caste
           const Pixel& pixel = pixels[i];
           const ShadowMap& map = map_for_depth(maps, double(pixel.depth_m));
           const double texel_m = texel_point(map, resolution, glm::dvec3(pixel.position)).size_m;
-          const float offset_m = lift_m + float(std::min(texel_m, max_offset_m));
+          const float offset_m = checked_lift_m + float(std::min(texel_m, max_offset_m));
           const TexelPoint compared =
               texel_point(map, resolution, glm::dvec3(pixel.position + offset_m * pixel.normal));
           is_wrong[i] = is_shaded(scene, glm::vec3(compared.position), to_sun) != (truth[i] != 0) ? 1 : 0;

@@ -12,13 +12,14 @@
 namespace parvis::light {
 namespace {
 
-constexpr int size = 96;
-constexpr double dark_share = 0.01;  // of the mean: what is darker counts as if it were so bright
+constexpr int check_side = 96;
+constexpr double min_compared_share = 0.01;  // of the mean: what is darker counts as if it were so bright
 
 std::vector<glm::vec4> even_directions() {
   std::vector<glm::vec4> directions;
-  for (int i = 0; i < size * size; ++i) {
-    const float z = 1.0f - 2.0f * (float(i) + 0.5f) / float(size * size), turn = 2.39996323f * float(i);
+  for (int i = 0; i < check_side * check_side; ++i) {
+    const float z = 1.0f - 2.0f * (float(i) + 0.5f) / float(check_side * check_side),
+                turn = 2.39996323f * float(i);
     const float across = std::sqrt(1.0f - z * z);
     directions.emplace_back(across * std::cos(turn), across * std::sin(turn), z, 0.0f);
   }
@@ -37,17 +38,17 @@ gl::Texture table_texture(const SkyView& view, float added) {
 }
 
 std::vector<glm::vec4> drawn(const gl::Program& program) {
-  const gl::Texture target = gl::texture_2d(GL_RGBA32F, size, size);
+  const gl::Texture target = gl::texture_2d(GL_RGBA32F, check_side, check_side);
   const gl::Framebuffer framebuffer = gl::Framebuffer::create();
   const gl::VertexArray no_attributes = gl::VertexArray::create();
   glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, target.name(), 0);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-  glViewport(0, 0, size, size);
+  glViewport(0, 0, check_side, check_side);
   glDisable(GL_BLEND), glDisable(GL_DEPTH_TEST), glDisable(GL_CULL_FACE);
   glBindVertexArray(no_attributes.name());
   program.use();
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  std::vector<glm::vec4> result(std::size_t(size) * size);
+  std::vector<glm::vec4> result(std::size_t(check_side) * check_side);
   glGetTextureImage(target.name(), 0, GL_RGBA, GL_FLOAT, GLsizei(result.size() * sizeof(glm::vec4)),
                     result.data());
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -64,7 +65,7 @@ void compare(const std::vector<glm::vec4>& gpu, const std::vector<glm::vec3>& cp
       check.bad_samples += (a >= 0.0 && std::isfinite(a) ? 0 : 1) + (b >= 0.0 && std::isfinite(b) ? 0 : 1);
       const auto error = [&](double floor) { return std::abs(a - b) / std::max({b, floor, 1e-12}); };
       check.max_relative_error = worse(check.max_relative_error, error(mean));
-      check.max_error_of_value = worse(check.max_error_of_value, error(dark_share * mean));
+      check.max_error_of_value = worse(check.max_error_of_value, error(min_compared_share * mean));
     }
 }
 
@@ -79,8 +80,9 @@ Result<SkyGpuCheck> check_sky_on_gpu(const Air& air, double sun_elevation_deg, f
   const SkyView view(Atmosphere(air), to_sun);
 
   const std::vector<glm::vec4> directions = even_directions();
-  const gl::Texture input = gl::texture_2d(GL_RGBA32F, size, size), table = table_texture(view, table_error);
-  glTextureSubImage2D(input.name(), 0, 0, 0, size, size, GL_RGBA, GL_FLOAT, directions.data());
+  const gl::Texture input = gl::texture_2d(GL_RGBA32F, check_side, check_side),
+                    table = table_texture(view, table_error);
+  glTextureSubImage2D(input.name(), 0, 0, 0, check_side, check_side, GL_RGBA, GL_FLOAT, directions.data());
   glTextureParameteri(input.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glBindTextureUnit(0, input.name());
   glBindTextureUnit(1, table.name());

@@ -16,14 +16,13 @@
 namespace parvis::light {
 namespace {
 
-constexpr float pi = 3.14159265f;
-constexpr std::size_t bits = 64;
+constexpr std::size_t bits_per_word = 64;
 /// Fewer rays than these look spotted: interpolated visibility is better.
 constexpr int min_rays = 16, max_rays = 256;
 /// To the sun's disc from a vertex whose sky is interpolated: what lies in the edge of a shadow.
 constexpr int max_quick_sun_rays = 4;
 
-glm::vec3 lifted(const LitVertex& vertex) { return vertex.position + lift_m * vertex.normal; }
+glm::vec3 lifted_position(const LitVertex& vertex) { return vertex.position + lift_m * vertex.normal; }
 
 /// Weighted by the cosine with the frame's normal.
 glm::vec3 on_hemisphere(const reference::Frame& frame, glm::vec2 p) {
@@ -62,7 +61,7 @@ void each_sun_ray(const reference::RayScene& scene, const SkyTable& sky,
   };
   for (std::size_t v = first; v < end; ++v) {
     const LitVertex& vertex = vertices[v];
-    const glm::vec3 from = lifted(vertex);
+    const glm::vec3 from = lifted_position(vertex);
     if (const auto& spot = sky.spot()) {
       const glm::vec3 light = spot_light(scene, sky, *spot, vertex, from, v);
       for (const DiscPoint& point : disc.of(v)) take(v, std::size_t(point.ray), light);
@@ -150,7 +149,7 @@ void VertexLight::shift(std::vector<LitVertex> vertices) {
 }
 
 bool VertexLight::is_open(std::size_t v, std::size_t ray) const {
-  return (open_[ray / bits * vertices_.size() + v] >> ray % bits & 1u) != 0;
+  return (open_[ray / bits_per_word * vertices_.size() + v] >> ray % bits_per_word & 1u) != 0;
 }
 
 /// What surfaces would give back of the sun if all of them saw it, per bounce.
@@ -204,7 +203,7 @@ void VertexLight::follow(const SkyTable& sky) {
 
 /// The ray found the sky.
 void VertexLight::open(std::size_t v, std::size_t ray, glm::vec3 radiance) {
-  open_[ray / bits * vertices_.size() + v] |= std::uint64_t(1) << ray % bits;
+  open_[ray / bits_per_word * vertices_.size() + v] |= std::uint64_t(1) << ray % bits_per_word;
   sums_[v].add_sky(ray, radiance);
 }
 
@@ -232,7 +231,7 @@ class VertexLight::Turn {
     for (const DiscPoint& point : points)
       for (std::size_t v = begin_; v < end_; ++v) {
         const auto ray = std::size_t(point.ray);
-        const glm::vec3 from = lifted(light_.vertices_[v]),
+        const glm::vec3 from = lifted_position(light_.vertices_[v]),
                         direction = on_hemisphere(frames_[v - begin_], point.at);
         const OwnHit* hit = own_ ? &light_.own_hit(v, ray) : nullptr;
         if (hit && hit->face != no_face)
@@ -296,7 +295,7 @@ class VertexLight::Turn {
       const scene::TracedHit at =
           reference::traced_hit(*hit.place, hit.triangle, {hit.u, hit.v}, -seen_.direction(i), 0.0f);
       if (!(glm::dot(at.normal, at.normal) > 0.5f)) continue;  // a sliver without a normal
-      const glm::vec3 given_back = albedo_of(*hit.place) / pi;
+      const glm::vec3 given_back = albedo_of(*hit.place) / glm::pi<float>();
       Bounces& bounces = light_.bounces_[v];
       if (finds_ == Finds::all)
         add_sky(bounces, ray, given_back, given_back * open_share * sky_.irradiance(at.normal),
@@ -405,7 +404,7 @@ void VertexLight::find_own(const reference::RayScene& scene, const OwnFaces& own
     for (std::size_t v = begin; v < end; ++v) frames.push_back(turned_frame(vertices_[v].normal, v));
     for (const DiscPoint& point : patterns.of(begin))
       for (std::size_t v = begin; v < end; ++v) {
-        packet.add(lifted(vertices_[v]), on_hemisphere(frames[v - begin], point.at),
+        packet.add(lifted_position(vertices_[v]), on_hemisphere(frames[v - begin], point.at),
                    {v, std::size_t(point.ray)});
         if (packet.is_full()) answer();
       }
@@ -424,7 +423,7 @@ void VertexLight::refine(const reference::RayScene& scene, const SkyTable& sky, 
   if (added <= 0) return;
   if (blocked == Blocked::bounces) bounces_.resize(vertices_.size());
   if (own) own_.resize(vertices_.size()), find_own(scene, *own, rays_ + added);
-  open_.resize((std::size_t(rays_ + added) + bits - 1) / bits * vertices_.size());
+  open_.resize((std::size_t(rays_ + added) + bits_per_word - 1) / bits_per_word * vertices_.size());
   add_rays(scene, sky, rays_, added, blocked, own, Finds::all);
   rays_ += added;
 }
@@ -467,7 +466,7 @@ std::vector<glm::vec3> VertexLight::sky_irradiance() const {
     result[v] += sums_[v].sky / float(rays_);
     if (!bounces_.empty()) result[v] += bounces_[v].sums.sky / float(bounces_of(rays_));
     if (!own_.empty()) result[v] += own_[v].sums.sky / float(rays_);
-    result[v] *= pi;
+    result[v] *= glm::pi<float>();
   }
   return result;
 }
@@ -494,7 +493,7 @@ Halves VertexLight::halves_of_sky() const {
       means += means_of_halves(bounces_[v].sums.sky.y, bounces_[v].sums.odd_sky, bounces_of(rays_),
                                odd_bounces_of(rays_));
     if (!own_.empty()) means += means_of_halves(own_[v].sums.sky.y, own_[v].sums.odd_sky, rays_, rays_ / 2);
-    add_to_halves(halves, pi * (means + halves_of_bounced_sun(v)));
+    add_to_halves(halves, glm::pi<float>() * (means + halves_of_bounced_sun(v)));
   }
   return halves;
 }

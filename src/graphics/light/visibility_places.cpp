@@ -12,10 +12,9 @@
 namespace parvis::light {
 namespace {
 
-constexpr float pi = 3.14159265f;
 constexpr std::size_t direction_count = 64;
 /// Of each direction, steradians.
-constexpr float solid_angle = 2.0f * pi / float(direction_count);
+constexpr float solid_angle_of_direction = 2.0f * glm::pi<float>() / float(direction_count);
 
 /// Numbers of the directions by their azimuth: rays that are answered together go about the same way.
 const std::array<std::size_t, direction_count>& by_azimuth() {
@@ -62,7 +61,7 @@ std::vector<glm::vec3> sky_irradiance(const std::vector<LitVertex>& vertices, co
         for (std::size_t k = 0; k < direction_count; ++k)
           sum += shares[k] * std::max(glm::dot(VisibilityPlaces::directions()[k], vertices[v].normal), 0.0f) *
                  radiance[k];
-        result[v] = solid_angle * sum + from_below(vertices[v].normal, sky, blocked);
+        result[v] = solid_angle_of_direction * sum + from_below(vertices[v].normal, sky, blocked);
       },
       64);
   return result;

@@ -16,9 +16,8 @@
 namespace parvis::lit_objects {
 namespace {
 
-using namespace scene::attribute;
-
 scene::NodeSchema lit_virtual_object_schema() {
+  using namespace scene::attribute;
   return {
       .type = lit_type,
       .help =

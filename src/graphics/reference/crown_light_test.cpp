@@ -9,13 +9,13 @@
 namespace parvis::reference {
 namespace {
 
-constexpr int size = 48;
+constexpr int picture_side = 48;
 
 double mean_green(const ImageF& picture) {
   double sum = 0.0;
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) sum += double(picture.at(x, y)[1]);
-  return sum / (size * size);
+  for (int y = 0; y < picture_side; ++y)
+    for (int x = 0; x < picture_side; ++x) sum += double(picture.at(x, y)[1]);
+  return sum / (picture_side * picture_side);
 }
 
 /// Into the middle of a crown under an even sky.
@@ -34,12 +34,14 @@ TEST(CrownLight, IsThatOfAPhotographWhereLeavesHideTheSkyFromEachOther) {
   PhotographOptions photographed;
   photographed.samples_per_pixel = 64;
   const auto photograph =
-      take_photograph(RayScene(scene), scene, sky, into_crown(), size, size, photographed);
+      take_photograph(RayScene(scene), scene, sky, into_crown(), picture_side, picture_side, photographed);
   ASSERT_TRUE(photograph);
   TraceOptions traced;
   traced.progress.clear();
   const auto shown = [&] {
-    return mean_green(trace_picture(RayScene(scene), scene, sky, into_crown(), size, size, traced).radiance);
+    return mean_green(
+        trace_picture(RayScene(scene), scene, sky, into_crown(), picture_side, picture_side, traced)
+            .radiance);
   };
   const double truth = mean_green(photograph->radiance), open = shown();
   find_leaf_openness(scene);

@@ -20,7 +20,6 @@ constexpr float colour_knee = 0.4f;          // p_c
 constexpr float knee_error = 0.95f;          // p_t
 constexpr float feature_exponent = 0.5f;     // q_f
 constexpr float feature_width_deg = 0.082f;  // w
-constexpr float pi = 3.14159265f;
 const vec3 white_xyz{0.950428545f, 1.0f, 1.088900371f};
 
 vec3 xyz_from_linear(vec3 c) {
@@ -88,18 +87,21 @@ struct Sensitivity {
 constexpr Sensitivity achromatic{1.0f, 0.0047f, 0.0f, 1e-5f}, red_green{1.0f, 0.0053f, 0.0f, 1e-5f},
     blue_yellow{34.1f, 0.04f, 13.5f, 0.025f};
 
-int filter_radius() { return int(std::ceil(3.0f * std::sqrt(0.04f / (2.0f * pi * pi)) * pixels_per_degree)); }
+int filter_radius() {
+  return int(
+      std::ceil(3.0f * std::sqrt(0.04f / (2.0f * glm::pi<float>() * glm::pi<float>())) * pixels_per_degree));
+}
 
 /// A channel seen from the distance: each term of the sensitivity is a separable Gaussian, and the whole has
 /// sum 1.
 ImageF seen(const ImageF& channel, const Sensitivity& s) {
   const int radius = filter_radius();
   const auto term = [&](float a, float b, double& sum) {
-    const float sigma = std::sqrt(b / (2.0f * pi * pi)) * pixels_per_degree;
+    const float sigma = std::sqrt(b / (2.0f * glm::pi<float>() * glm::pi<float>())) * pixels_per_degree;
     double line = 0.0;
     for (int x = -radius; x <= radius; ++x)
       line += std::exp(-double(x * x) / (2.0 * double(sigma) * double(sigma)));
-    sum = double(a * std::sqrt(pi / b)) * line * line;  // over the two dimensions of the kernel
+    sum = double(a * std::sqrt(glm::pi<float>() / b)) * line * line;  // over the two dimensions of the kernel
     return gaussian(sigma, radius);
   };
   double sum1 = 0.0, sum2 = 0.0;

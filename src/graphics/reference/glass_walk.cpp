@@ -11,8 +11,8 @@ namespace {
 using glm::vec3;
 
 constexpr int max_inner_bounces = 8;
-constexpr float min_share = 2e-3f;      // of the light, that is followed
-constexpr float off_surface_m = 1e-4f;  // where rays begin, so that they do not meet where they come from
+constexpr float min_share = 2e-3f;    // of the light, that is followed
+constexpr float off_glass_m = 1e-4f;  // where rays begin, so that they do not meet where they come from
 
 /// A cone whose spread a surface changes by `turn_per_m` of its width.
 Cone refracted_cone(Ray ray, const Cone& before, float ratio, float turn_per_m) {
@@ -32,7 +32,7 @@ std::vector<GlassExit> glass_exits(const RayScene& rays, const Hit& hit, const S
   const scene::Material& glass = *hit.place->material;
   std::vector<GlassExit> exits;
   const float into = 1.0f / glass.ior;  // ratio of the indices
-  Cone cone = refracted_cone({entry.position - off_surface_m * entry.geometric_normal,
+  Cone cone = refracted_cone({entry.position - off_glass_m * entry.geometric_normal,
                               shading::refracted(seen.ray.direction, entry.surface.normal, into)},
                              seen, into, (1.0f - into) * entry.curvature_per_m);
   vec3 share(1.0f);
@@ -51,13 +51,13 @@ std::vector<GlassExit> glass_exits(const RayScene& rays, const Hit& hit, const S
     const bool leaves = out != vec3(0.0f) && glm::dot(out, point.geometric_normal) < 0.0f;
     const float kept = leaves ? shading::inner_reflectance(glass.ior, -glm::dot(out, normal)) : 1.0f;
     if (leaves)
-      exits.push_back({refracted_cone({point.position - off_surface_m * point.geometric_normal, out}, cone,
+      exits.push_back({refracted_cone({point.position - off_glass_m * point.geometric_normal, out}, cone,
                                       glass.ior, (glass.ior - 1.0f) * point.curvature_per_m),
                        (1.0f - kept) * share});
     share *= kept;
     if (std::max({share.x, share.y, share.z}) < min_share) break;
     cone = refracted_cone(
-        {point.position + off_surface_m * point.geometric_normal, glm::reflect(cone.ray.direction, normal)},
+        {point.position + off_glass_m * point.geometric_normal, glm::reflect(cone.ray.direction, normal)},
         cone, 1.0f, 2.0f * point.curvature_per_m);
   }
   return exits;

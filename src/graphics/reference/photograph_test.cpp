@@ -13,7 +13,7 @@ namespace parvis::reference {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int width = 80, height = 70;  // tiles of the right and lower edge are cut
+constexpr int photo_width = 80, photo_height = 70;  // tiles of the right and lower edge are cut
 
 /// A street corner in small: ground, a box, a pane; sun and the plain blue sky.
 struct Corner {
@@ -28,7 +28,7 @@ struct Corner {
   }
   Result<Photograph> take(const PhotographOptions& options) const {
     const RayScene rays(scene);
-    return take_photograph(rays, scene, sky, camera, width, height, options);
+    return take_photograph(rays, scene, sky, camera, photo_width, photo_height, options);
   }
 };
 
@@ -165,10 +165,10 @@ TEST(Photograph, DepthIsMeasuredAlongTheAxisAndAlphaIsWhereTheSceneIs) {
   corner.camera.world_from_camera = look_at({0, 0, 0}, {0, 1, 0});
   const Result<Photograph> photograph = corner.take(four_samples());
   ASSERT_TRUE(photograph);
-  for (const int x : {0, width / 2, width - 1}) {
-    EXPECT_NEAR(*photograph->depth_m.at(x, height - 1), 10.0f, 1e-4f);
+  for (const int x : {0, photo_width / 2, photo_width - 1}) {
+    EXPECT_NEAR(*photograph->depth_m.at(x, photo_height - 1), 10.0f, 1e-4f);
     EXPECT_EQ(*photograph->depth_m.at(x, 0), 0.0f);
-    EXPECT_EQ(*photograph->alpha.at(x, height - 1), 255);
+    EXPECT_EQ(*photograph->alpha.at(x, photo_height - 1), 255);
     EXPECT_EQ(*photograph->alpha.at(x, 0), 0);
   }
 }
@@ -178,14 +178,15 @@ TEST(Photograph, SeenPointsProjectToWhereTheyAreSeenAndHideBehindThings) {
   const RayScene rays(corner.scene);
   Camera behind = corner.camera;
   behind.world_from_camera = look_at({-2, 8, 1.6f}, {0, 0, 1});
-  const std::vector<scene::TakenPicture> pictures{{"front", corner.camera, width, height},
-                                                  {"back", behind, width, height}};
-  const auto points = seen_points(rays, pictures, {Image8(width, height, 3), Image8(width, height, 3)}, 8);
+  const std::vector<scene::TakenPicture> pictures{{"front", corner.camera, photo_width, photo_height},
+                                                  {"back", behind, photo_width, photo_height}};
+  const auto points = seen_points(
+      rays, pictures, {Image8(photo_width, photo_height, 3), Image8(photo_width, photo_height, 3)}, 8);
   int on_front_wall = 0;
   for (const scene::SeenPoint& point : points) {
     ASSERT_FALSE(point.pictures.empty());
     const glm::vec2 at = scene::projected(pictures[std::size_t(point.pictures.front())], point.position);
-    EXPECT_TRUE(at.x > 0.0f && at.y > 0.0f && at.x < float(width) && at.y < float(height));
+    EXPECT_TRUE(at.x > 0.0f && at.y > 0.0f && at.x < float(photo_width) && at.y < float(photo_height));
     if (std::abs(point.position.y + 1.0f) > 1e-4f || point.position.z < 0.01f) continue;
     ++on_front_wall;
     EXPECT_EQ(point.pictures, std::vector<int>{0});  // the camera behind the box does not see its front

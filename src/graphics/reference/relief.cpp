@@ -12,8 +12,6 @@ struct Lookup {
 
   float relief_depth(vec2 uv) const { return 1.0f - texture.sample(uv, texels).w; }
 
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION
 #include "graphics/shading/relief.glsl"
 
   vec2 uv_to_floor(const TextureFrame& edges, vec3 normal, vec3 direction, float depth_m) {

@@ -10,13 +10,12 @@ namespace {
 
 using glm::vec2, glm::vec3;
 
-constexpr float pi_f = 3.14159265f;
 constexpr float diffuse_spread =
     0.2f;  // of a cone after a diffuse bounce: textures are looked up coarser there
 
 /// About the z axis, as densely as the cosine.
 vec3 cosine_direction(vec2 uniforms) {
-  const float radius = std::sqrt(uniforms.x), turn = 2.0f * pi_f * uniforms.y;
+  const float radius = std::sqrt(uniforms.x), turn = 2.0f * glm::pi<float>() * uniforms.y;
   return {radius * std::cos(turn), radius * std::sin(turn), std::sqrt(std::max(0.0f, 1.0f - uniforms.x))};
 }
 
@@ -24,7 +23,7 @@ vec3 cosine_direction(vec2 uniforms) {
 /// Sampling Visible GGX Normals with Spherical Caps).
 vec3 visible_half_vector(vec3 to_viewer, float alpha, vec2 uniforms) {
   const vec3 v = glm::normalize(vec3(alpha * to_viewer.x, alpha * to_viewer.y, to_viewer.z));
-  const float turn = 2.0f * pi_f * uniforms.x, z = (1.0f - uniforms.y) * (1.0f + v.z) - v.z;
+  const float turn = 2.0f * glm::pi<float>() * uniforms.x, z = (1.0f - uniforms.y) * (1.0f + v.z) - v.z;
   const float radius = std::sqrt(std::clamp(1.0f - z * z, 0.0f, 1.0f));
   const vec3 h = vec3(radius * std::cos(turn), radius * std::sin(turn), z) + v;
   return glm::normalize(vec3(alpha * h.x, alpha * h.y, std::max(h.z, 1e-6f)));
@@ -75,8 +74,8 @@ float Scatter::highlight_pdf(const Highlight& highlight, float n_dot_h) const {
 
 float Scatter::pdf(vec3 direction) const {
   const float cosine = glm::dot(surface_.normal, direction);
-  if (cosine <= 0.0f) return through_chance_ * -cosine / pi_f;
-  float sum = diffuse_chance_ * cosine / pi_f;
+  if (cosine <= 0.0f) return through_chance_ * -cosine / glm::pi<float>();
+  float sum = diffuse_chance_ * cosine / glm::pi<float>();
   const float n_dot_h =
       std::clamp(glm::dot(surface_.normal, glm::normalize(to_viewer_ + direction)), 0.0f, 1.0f);
   if (!base_.is_mirror && base_.chance > 0.0f) sum += base_.chance * highlight_pdf(base_, n_dot_h);

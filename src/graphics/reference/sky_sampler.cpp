@@ -14,7 +14,6 @@ using glm::vec2, glm::vec3;
 constexpr int max_rows = 256;                // the distribution stays in the cache
 constexpr float min_share_of_mean = 0.05f;   // dark parts are chosen, too: they are bilinear, cells are not
 constexpr float share_below_horizon = 0.1f;  // as often: there the ground hides it, mostly
-constexpr float pi_f = 3.14159265f;
 
 /// Mean luminance of the pixels of a cell and of the ones about it, from which lookups within it interpolate.
 float cell_luminance(const ImageF& picture, int row, int column, int rows, int columns) {
@@ -62,7 +61,8 @@ SkySampler::SkySampler(const shading::SkyLight& sky)
       heading_(sky.heading) {
   const ImageF& picture = sky.levels.front();
   const std::size_t rows = std::size_t(rows_), columns = std::size_t(columns_);
-  for (int row = 0; row <= rows_; ++row) row_cosines_.push_back(std::cos(pi_f * float(row) / float(rows_)));
+  for (int row = 0; row <= rows_; ++row)
+    row_cosines_.push_back(std::cos(glm::pi<float>() * float(row) / float(rows_)));
   std::vector<float>& cells = horizontal_.ends;
   double mean = 0.0;
   for (int row = 0; row < rows_; ++row)
@@ -87,7 +87,7 @@ SkySampler::SkySampler(const shading::SkyLight& sky)
   accumulate(vertical_, 0, rows);
   for (std::size_t row = 0; row < rows; ++row) {
     const float share = vertical_.ends[row] - (row > 0 ? vertical_.ends[row - 1] : 0.0f);
-    row_density_.push_back(share / ((row_cosines_[row] - row_cosines_[row + 1]) * 2.0f * pi_f));
+    row_density_.push_back(share / ((row_cosines_[row] - row_cosines_[row + 1]) * 2.0f * glm::pi<float>()));
   }
 }
 
@@ -103,10 +103,10 @@ SkySampler::Choice SkySampler::choose(vec2 uniform) const {
       find(horizontal_, std::size_t(row) * std::size_t(columns_), std::size_t(columns_), uniform.x);
   const float z = glm::mix(row_cosines_[std::size_t(row)], row_cosines_[std::size_t(row) + 1], down);
   const float u = (float(column) + along) / float(columns_);
-  const float azimuth = (u - 0.5f) * 2.0f * pi_f + heading_;
+  const float azimuth = (u - 0.5f) * 2.0f * glm::pi<float>() + heading_;
   const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z));
   return {{radius * std::sin(azimuth), radius * std::cos(azimuth), z},
-          {u, std::acos(std::clamp(z, -1.0f, 1.0f)) / pi_f},
+          {u, std::acos(std::clamp(z, -1.0f, 1.0f)) / glm::pi<float>()},
           cell_density(row, column)};
 }
 

@@ -52,7 +52,7 @@ scene::Scene scene_with(const Things& things, int count = 1) {
   return scene;
 }
 
-constexpr int size = 33;
+constexpr int traced_side = 33;
 
 TracedPicture trace(const scene::Scene& scene, glm::vec3 eye = {0, -10, 0}) {
   Camera camera;
@@ -60,7 +60,7 @@ TracedPicture trace(const scene::Scene& scene, glm::vec3 eye = {0, -10, 0}) {
   camera.vertical_fov = glm::radians(60.0f);
   const RayScene rays(scene);
   return trace_picture(rays, scene, shading::make_sky_light(ImageF(32, 16, 3, 0.0f), 1.0f, 0.0f), camera,
-                       size, size, {});
+                       traced_side, traced_side, {});
 }
 
 glm::vec3 at(const TracedPicture& picture, int x, int y) {
@@ -74,7 +74,7 @@ TEST(TracedThings, RadianceMayDependOnTheDirection) {
   });
   for (const glm::vec3 eye : {glm::vec3(0, -10, 0), glm::vec3(5, -8, 3), glm::vec3(-6, -8, 0)}) {
     const glm::vec3 expected = 0.5f * glm::normalize(eye) + 0.5f;
-    EXPECT_LT(glm::distance(at(trace(scene, eye), size / 2, size / 2), expected), 0.02f);
+    EXPECT_LT(glm::distance(at(trace(scene, eye), traced_side / 2, traced_side / 2), expected), 0.02f);
   }
 }
 
@@ -97,8 +97,8 @@ TEST(TracedThings, HolesAreSeenAndShoneThrough) {
     traced.add(facing_south(), std::make_shared<const Shining>(scene::Alpha::cutout), glm::mat4(1.0f), {});
   });
   const TracedPicture picture = trace(scene);
-  EXPECT_GT(at(picture, size / 2 - 3, size / 2).z, 0.4f);
-  EXPECT_EQ(at(picture, size / 2 + 3, size / 2), glm::vec3(0.0f));
+  EXPECT_GT(at(picture, traced_side / 2 - 3, traced_side / 2).z, 0.4f);
+  EXPECT_EQ(at(picture, traced_side / 2 + 3, traced_side / 2), glm::vec3(0.0f));
   const RayScene rays(scene);
   EXPECT_TRUE(rays.is_blocked({{-1, -5, 0}, {0, 1, 0}}));
   EXPECT_FALSE(rays.is_blocked({{1, -5, 0}, {0, 1, 0}}));
@@ -113,7 +113,7 @@ TEST(TracedThings, BlendingCoversItsShare) {
     traced.add(facing_south(), std::make_shared<const Shining>(), glm::translate(glm::mat4(1.0f), {0, 3, 0}),
                {});
   });
-  const glm::vec3 seen = at(trace(scene), size / 2, size / 2);
+  const glm::vec3 seen = at(trace(scene), traced_side / 2, traced_side / 2);
   EXPECT_LT(glm::distance(seen, glm::vec3(0.5f, 0.0f, 0.5f)), 0.02f) << "both shine alike";
   const RayScene rays(scene);
   const Ray through{{0.5f, -5, 0.2f}, {0, 1, 0}, 1e-4f, 6.0f};  // beside the edge that two triangles share

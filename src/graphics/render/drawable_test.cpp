@@ -17,7 +17,7 @@ namespace {
 
 using scene::add, scene::box, scene::ground, scene::matt, scene::model_of;
 
-constexpr int width = 200, height = 200;
+constexpr int drawn_width = 200, drawn_height = 200;
 
 /// Upright, 4 m wide, seen from the south.
 TestQuad upright(glm::vec3 centre, bool is_dynamic = false) {
@@ -52,12 +52,12 @@ class DrawableTest : public gl::ContextTest {
   }
   static ImageF draw(Renderer& renderer, const scene::Scene& scene, const Camera& camera) {
     renderer.begin_frame(scene, camera);
-    renderer.prepare_main_view(camera, width, height);
+    renderer.prepare_main_view(camera, drawn_width, drawn_height);
     renderer.draw_main_view();
     return renderer.read_radiance();
   }
   ImageF draw() { return draw(*renderer_, scene_, camera_); }
-  ObjectPicture pick() { return renderer_->pick(camera_, width, height, true); }
+  ObjectPicture pick() { return renderer_->pick(camera_, drawn_width, drawn_height, true); }
   static glm::vec3 at(const ImageF& image, int x, int y) {
     return {image.at(x, y)[0], image.at(x, y)[1], image.at(x, y)[2]};
   }
@@ -77,8 +77,8 @@ TEST_F(DrawableTest, TheMainViewShowsItWithItsHoles) {
   quads_[0].is_visible = false;
   const ImageF without = draw();
   // 10 pixels per metre: 40 x 40 pixels about the middle, of which the corners' quarters are holes.
-  for (int y = 0; y < height; y += 3)
-    for (int x = 0; x < width; x += 3) {
+  for (int y = 0; y < drawn_height; y += 3)
+    for (int x = 0; x < drawn_width; x += 3) {
       const int from_left = x - 80, from_top = y - 80;
       const auto is_inner = [](int from) { return from > 11 && from < 28; };
       const auto is_outside = [](int from) { return from < -1 || from > 40; };
@@ -101,7 +101,7 @@ TEST_F(DrawableTest, ItsRadianceDependsOnTheViewer) {
   for (const glm::vec3 eye : {glm::vec3(6, -8, 3), glm::vec3(-6, -8, 3), glm::vec3(0, -6, 11)}) {
     camera_.world_from_camera = look_at(eye, {0, 0, 3});
     const glm::vec3 expected = test_quads_shared::emission_toward(glm::normalize(eye - glm::vec3(0, 0, 3)));
-    EXPECT_LT(glm::distance(at(draw(), width / 2, height / 2), expected), 0.02f);
+    EXPECT_LT(glm::distance(at(draw(), drawn_width / 2, drawn_height / 2), expected), 0.02f);
   }
 }
 
@@ -167,7 +167,7 @@ TEST_F(DrawableShadowTest, AMovingShadowGoesWithIt) {
   light = draw();
   EXPECT_LT(light_at(light, 4, 0), 0.3f * light_at(light, -4, 0));
   renderer_->begin_still_frame(scene_, camera_);
-  renderer_->prepare_main_view(camera_, width, height, Subjects::fixed);
+  renderer_->prepare_main_view(camera_, drawn_width, drawn_height, Subjects::fixed);
   renderer_->draw_main_view();
   light = renderer_->read_radiance();
   EXPECT_GT(light_at(light, 4, 0), 0.9f * light_at(light, -4, 0)) << "static surroundings alone";

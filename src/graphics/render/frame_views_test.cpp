@@ -11,8 +11,6 @@ namespace {
 
 using scene::add, scene::box, scene::ground, scene::matt, scene::model_of;
 
-constexpr float pi = 3.14159265f;
-
 /// Counts what the renderer asks of a drawable.
 struct Counting final : Drawable {
   void update(const scene::Scene&) override { ++updates; }
@@ -84,7 +82,7 @@ TEST(Camera, ASymmetricFrustumIsASpecialCaseOfFourTangents) {
 TEST_F(FrameViewsTest, AnOffAxisFrustumIsAPartOfASymmetricOne) {
   Camera whole;
   whole.world_from_camera = look_at({0, -4, 3}, {0, 6, 2});
-  whole.vertical_fov = 0.5f * pi;
+  whole.vertical_fov = 0.5f * glm::pi<float>();
   ASSERT_TRUE(draw_frame(*renderer_, scene_, EyeView{whole, 160, 160}));
   const ObjectPicture objects = renderer_->pick(whole, 160, 160, true);
   Camera upper_right = whole;

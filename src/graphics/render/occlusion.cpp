@@ -9,8 +9,8 @@
 namespace parvis::render {
 namespace {
 
-constexpr int width = 640, height = 360;
-constexpr std::size_t pixel_count = std::size_t(width) * std::size_t(height);
+constexpr int depth_width = 640, depth_height = 360;
+constexpr std::size_t pixel_count = std::size_t(depth_width) * std::size_t(depth_height);
 constexpr float min_area_m2 = 4.0f;  // smaller triangles hide less than they cost
 constexpr std::size_t max_shape_triangles = 20'000;
 constexpr float min_area_px = 0.01f;
@@ -36,8 +36,8 @@ int clip_to_near(const std::array<glm::vec4, 3>& in, std::array<glm::vec4, 4>& o
 /// x, y in pixels and 1/w.
 glm::vec3 on_screen(const glm::vec4& clip) {
   const float inverse_w = 1.0f / clip.w;
-  return {(0.5f + 0.5f * clip.x * inverse_w) * float(width),
-          (0.5f + 0.5f * clip.y * inverse_w) * float(height), inverse_w};
+  return {(0.5f + 0.5f * clip.x * inverse_w) * float(depth_width),
+          (0.5f + 0.5f * clip.y * inverse_w) * float(depth_height), inverse_w};
 }
 
 void add_triangle(const std::array<glm::vec3, 3>& corners, bool has_backs, std::vector<glm::vec3>& out) {
@@ -93,10 +93,10 @@ void OcclusionCuller::project(const glm::mat4& clip_from_corners, const glm::vec
     const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
     const auto [bottom, top] = std::minmax({p[0].y, p[1].y, p[2].y});
     ScreenTriangle screen;
-    screen.min_x = int(std::clamp(left, 0.0f, float(width - 1)));
-    screen.max_x = int(std::clamp(right, -1.0f, float(width - 1)));
-    screen.min_y = int(std::clamp(bottom, 0.0f, float(height - 1)));
-    screen.max_y = int(std::clamp(top, -1.0f, float(height - 1)));
+    screen.min_x = int(std::clamp(left, 0.0f, float(depth_width - 1)));
+    screen.max_x = int(std::clamp(right, -1.0f, float(depth_width - 1)));
+    screen.min_y = int(std::clamp(bottom, 0.0f, float(depth_height - 1)));
+    screen.max_y = int(std::clamp(top, -1.0f, float(depth_height - 1)));
     screen.inverse_w = glm::vec3(0.0f);
     for (std::size_t k = 0; k < 3; ++k) {  // barycentric coordinate of the corner opposite to each edge
       const glm::vec3 &a = p[(k + 1) % 3], &b = p[(k + 2) % 3];
@@ -112,7 +112,7 @@ void OcclusionCuller::rasterise(const ScreenTriangle& t, int first_row, int end_
   // The farthest depth within a pixel, not that of its centre, stands for the pixel.
   const float slope = 0.5f * (std::abs(t.inverse_w.x) + std::abs(t.inverse_w.y));
   for (int y = std::max(t.min_y, first_row); y <= std::min(t.max_y, end_row - 1); ++y) {
-    float* row = inverse_w_.data() + std::size_t(y) * std::size_t(width);
+    float* row = inverse_w_.data() + std::size_t(y) * std::size_t(depth_width);
     const float cy = float(y) + 0.5f;
     for (int x = t.min_x; x <= t.max_x; ++x) {
       const float cx = float(x) + 0.5f;
@@ -127,21 +127,22 @@ void OcclusionCuller::take_farthest_of_neighbours() {
   row_minima_.resize(pixel_count);
   farthest_.resize(pixel_count);
   parallel_for(
-      std::size_t(height),
+      std::size_t(depth_height),
       [&](std::size_t y) {
-        const float* in = inverse_w_.data() + y * std::size_t(width);
-        float* out = row_minima_.data() + y * std::size_t(width);
-        for (int x = 0; x < width; ++x)
-          out[x] = std::min({in[std::max(x - 1, 0)], in[x], in[std::min(x + 1, width - 1)]});
+        const float* in = inverse_w_.data() + y * std::size_t(depth_width);
+        float* out = row_minima_.data() + y * std::size_t(depth_width);
+        for (int x = 0; x < depth_width; ++x)
+          out[x] = std::min({in[std::max(x - 1, 0)], in[x], in[std::min(x + 1, depth_width - 1)]});
       },
       32);
   parallel_for(
-      std::size_t(height),
+      std::size_t(depth_height),
       [&](std::size_t y) {
-        const std::size_t above = std::min(y + 1, std::size_t(height) - 1), below = y > 0 ? y - 1 : 0;
-        const auto minima = [&](std::size_t r) { return row_minima_.data() + r * std::size_t(width); };
-        float* out = farthest_.data() + y * std::size_t(width);
-        for (int x = 0; x < width; ++x) out[x] = std::min({minima(below)[x], minima(y)[x], minima(above)[x]});
+        const std::size_t above = std::min(y + 1, std::size_t(depth_height) - 1), below = y > 0 ? y - 1 : 0;
+        const auto minima = [&](std::size_t r) { return row_minima_.data() + r * std::size_t(depth_width); };
+        float* out = farthest_.data() + y * std::size_t(depth_width);
+        for (int x = 0; x < depth_width; ++x)
+          out[x] = std::min({minima(below)[x], minima(y)[x], minima(above)[x]});
       },
       32);
 }
@@ -163,7 +164,8 @@ void OcclusionCuller::draw(const glm::mat4& clip_from_world, std::span<const Pla
     }
   });
   parallel_for(tasks, [&](std::size_t task) {
-    const int first_row = int(task) * height / int(tasks), end_row = (int(task) + 1) * height / int(tasks);
+    const int first_row = int(task) * depth_height / int(tasks),
+              end_row = (int(task) + 1) * depth_height / int(tasks);
     for (const std::vector<ScreenTriangle>& list : projected_)
       for (const ScreenTriangle& triangle : list) rasterise(triangle, first_row, end_row);
   });
@@ -172,7 +174,7 @@ void OcclusionCuller::draw(const glm::mat4& clip_from_world, std::span<const Pla
 
 bool OcclusionCuller::hides(const Bounds& box) const {
   if (farthest_.empty() || box.empty()) return false;
-  glm::vec2 low{float(width), float(height)}, high{-1.0f, -1.0f};
+  glm::vec2 low{float(depth_width), float(depth_height)}, high{-1.0f, -1.0f};
   float nearest = 0.0f;
   for (int corner = 0; corner < 8; ++corner) {
     const glm::vec4 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
@@ -183,11 +185,13 @@ bool OcclusionCuller::hides(const Bounds& box) const {
     low = glm::min(low, glm::vec2(screen)), high = glm::max(high, glm::vec2(screen));
     nearest = std::max(nearest, screen.z);
   }
-  const int x0 = std::max(int(std::floor(low.x)), 0), x1 = std::min(int(std::floor(high.x)), width - 1);
-  const int y0 = std::max(int(std::floor(low.y)), 0), y1 = std::min(int(std::floor(high.y)), height - 1);
+  const int x0 = std::max(int(std::floor(low.x)), 0), x1 = std::min(int(std::floor(high.x)), depth_width - 1);
+  const int y0 = std::max(int(std::floor(low.y)), 0),
+            y1 = std::min(int(std::floor(high.y)), depth_height - 1);
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x)
-      if (farthest_[std::size_t(y) * std::size_t(width) + std::size_t(x)] <= slack * nearest) return false;
+      if (farthest_[std::size_t(y) * std::size_t(depth_width) + std::size_t(x)] <= slack * nearest)
+        return false;
   return true;
 }
 

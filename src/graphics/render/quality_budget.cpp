@@ -5,8 +5,8 @@
 namespace parvis::render {
 namespace {
 
-constexpr double stays = 1.3;     // what a level that a thing has is worth more than one that it would get
-constexpr double follows = 0.25;  // share of a frame in what is known of the clock: a few frames' memory
+constexpr double stays = 1.3;  // what a level that a thing has is worth more than one that it would get
+constexpr double frame_weight = 0.25;  // share of a frame in what is known of the clock: a few frames' memory
 constexpr double min_share_ms = 0.01;  // a model that says less cannot be held against the clock
 constexpr double min_scale = 1e-3, max_scale = 1e3;
 
@@ -43,10 +43,10 @@ void QualityBudget::choose(std::span<QualityWish> wishes) {
 }
 
 void QualityBudget::frame_took(double chosen_ms, double rest_ms) {
-  rest_ms_ += (rest_ms_ == 0.0 ? 1.0 : follows) * (rest_ms - rest_ms_);
+  rest_ms_ += (rest_ms_ == 0.0 ? 1.0 : frame_weight) * (rest_ms - rest_ms_);
   if (planned_cost_ms_ < min_share_ms) return;
   const double scale = std::clamp(chosen_ms / planned_cost_ms_, min_scale, max_scale);
-  scale_ += follows * (scale - scale_);
+  scale_ += frame_weight * (scale - scale_);
 }
 
 }  // namespace parvis::render

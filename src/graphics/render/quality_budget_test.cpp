@@ -11,10 +11,10 @@
 namespace parvis::render {
 namespace {
 
-constexpr std::array<QualityLevel, 4> levels{{{0.02, 0.3}, {0.3, 0.6}, {0.9, 0.85}, {3.0, 1.0}}};
+constexpr std::array<QualityLevel, 4> test_levels{{{0.02, 0.3}, {0.3, 0.6}, {0.9, 0.85}, {3.0, 1.0}}};
 
 TEST(QualityBudget, GivesAllTheirBestWhereThereIsTime) {
-  std::vector<QualityWish> wishes(5, {1.0f, levels});
+  std::vector<QualityWish> wishes(5, {1.0f, test_levels});
   QualityBudget budget(100.0);
   budget.choose(wishes);
   for (const QualityWish& wish : wishes) EXPECT_EQ(wish.level, 3);
@@ -23,11 +23,11 @@ TEST(QualityBudget, GivesAllTheirBestWhereThereIsTime) {
 
 TEST(QualityBudget, GivesTheImportantMoreAndNeverTooMuch) {
   std::vector<QualityWish> wishes;
-  for (int i = 0; i < 20; ++i) wishes.push_back({float(20 - i), levels});
+  for (int i = 0; i < 20; ++i) wishes.push_back({float(20 - i), test_levels});
   for (const double budget_ms : {0.0, 1.0, 5.0, 12.0, 40.0}) {
     QualityBudget budget(budget_ms);
     budget.choose(wishes);
-    EXPECT_LE(budget.planned_ms(), std::max(budget_ms, 20 * levels[0].cost_ms) + 1e-9);
+    EXPECT_LE(budget.planned_ms(), std::max(budget_ms, 20 * test_levels[0].cost_ms) + 1e-9);
     EXPECT_GE(wishes.front().level, wishes.back().level);
     for (QualityWish& wish : wishes) wish.level = 0;
   }
@@ -38,8 +38,8 @@ TEST(QualityBudget, GivesTheImportantMoreAndNeverTooMuch) {
 }
 
 TEST(QualityBudget, WhatIsAsImportantAsAnotherKeepsItsLevel) {
-  std::vector<QualityWish> wishes{{1.0f, levels, 0}, {1.05f, levels, 0}};
-  QualityBudget budget(levels[3].cost_ms + levels[2].cost_ms + 0.5);
+  std::vector<QualityWish> wishes{{1.0f, test_levels, 0}, {1.05f, test_levels, 0}};
+  QualityBudget budget(test_levels[3].cost_ms + test_levels[2].cost_ms + 0.5);
   wishes[0].level = 3;  // in the last frame
   budget.choose(wishes);
   EXPECT_EQ(wishes[0].level, 3);
@@ -52,7 +52,7 @@ TEST(QualityBudget, HoldsAFramesTimeOverADrive) {
   constexpr double budget_ms = 33.0;
   QualityBudget budget(budget_ms);
   Random random(4);
-  std::vector<QualityWish> wishes(30, {0.0f, levels});
+  std::vector<QualityWish> wishes(30, {0.0f, test_levels});
   std::vector<double> errors_percent;
   for (int frame = 0; frame < 60 * 30; ++frame) {
     const double time_s = frame / 30.0;

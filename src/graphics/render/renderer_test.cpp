@@ -21,8 +21,6 @@ namespace {
 
 using scene::add, scene::box, scene::ground, scene::matt, scene::model_of, scene::quad, scene::sphere;
 
-constexpr float pi = 3.14159265f;
-
 class RendererTest : public gl::ContextTest {
  protected:
   static std::unique_ptr<Renderer> renderer_of(const scene::Scene& scene) {
@@ -177,7 +175,7 @@ TEST_F(RendererTest, AWallStandsWhereTrigonometrySays) {
   const auto renderer = renderer_of(scene);
   Camera camera;
   camera.world_from_camera = look_at({0, 0, 2}, {0, 10, 2});
-  camera.vertical_fov = 0.5f * pi;  // at 10 m, 20 m stand over 200 pixels: 10 per metre
+  camera.vertical_fov = 0.5f * glm::pi<float>();  // at 10 m, 20 m stand over 200 pixels: 10 per metre
   const ObjectPicture objects = renderer->pick(camera, 200, 200, false);
   const auto is_wall = [&](int x, int y) { return *objects.at(x, y) == 1u; };
   for (int y = 0; y < 200; ++y)
@@ -189,7 +187,7 @@ TEST_F(RendererTest, AShadowsEdgeLiesWhereTrigonometrySays) {
   scene::Scene scene;
   add(scene, model_of(ground(30), matt(glm::vec3(0.5f))));
   add(scene, model_of(box({-8, -0.2f, 0}, {8, 0, 4}), matt(glm::vec3(0.5f))));
-  const float elevation = 0.25f * pi;
+  const float elevation = 0.25f * glm::pi<float>();
   scene.sun.direction_to_sun = {0, -std::cos(elevation), std::sin(elevation)};
   const auto renderer = renderer_of(scene);
   draw(*renderer, scene, map_camera(60, 12), 240, 240);  // 5 cm a pixel

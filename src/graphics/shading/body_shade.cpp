@@ -46,13 +46,11 @@ void enter(BodyShade& shade, int index) {
 }
 
 /// Gives the shared function what a shader has in its block.
-struct Lookup {
+struct BodyShadeLookup {
   const vec4& body_grid;
   const glm::uvec4* body_cells;
   const Body* bodies;
 
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION
 #include "graphics/shading/body_shade_lookup.glsl"
 };
 
@@ -103,8 +101,8 @@ BodyShade make_body_shade(std::span<const Body> bodies, vec3 viewer) {
 }
 
 float sky_share_beside_bodies(const BodyShade& shade, vec3 position, vec3 normal, int object) {
-  return Lookup{shade.body_grid, shade.body_cells, shade.bodies}.sky_share_beside_bodies(position, normal,
-                                                                                         object);
+  return BodyShadeLookup{shade.body_grid, shade.body_cells, shade.bodies}.sky_share_beside_bodies(
+      position, normal, object);
 }
 
 }  // namespace parvis::shading

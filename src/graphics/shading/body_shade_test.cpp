@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "graphics/shading/test_axes.h"
 
 namespace parvis::shading {
 namespace {
-
-constexpr vec3 up{0, 0, 1};
 
 bool meets_box(vec3 p, vec3 direction, vec3 half_size) {
   float enters = 0.0f, leaves = 1e30f;

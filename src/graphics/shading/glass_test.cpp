@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "graphics/shading/test_axes.h"
+
 namespace parvis::shading {
 namespace {
 
 vec3 at_angle(float angle) { return {std::sin(angle), 0.0f, -std::cos(angle)}; }  // down upon the plane z = 0
-
-const vec3 up(0, 0, 1);
 
 TEST(Glass, BendsRaysBySnellsLaw) {
   for (const float ior : {1.1f, 1.5f, 2.4f})

@@ -7,7 +7,7 @@ namespace parvis::shading {
 namespace {
 
 constexpr float wanted_cell_m = 6.0f;
-constexpr float max_cells_per_side = 256.0f;
+constexpr float max_lamp_cells = 256.0f;
 
 float brightness(const Lamp& lamp) { return lamp.power.x + lamp.power.y + lamp.power.z; }
 
@@ -53,7 +53,7 @@ LampTable make_lamp_table(std::vector<Lamp> lamps) {
   }
   const vec2 size = high - low;
   table.corner = low;
-  table.cell_m = std::max(wanted_cell_m, std::max(size.x, size.y) / max_cells_per_side);
+  table.cell_m = std::max(wanted_cell_m, std::max(size.x, size.y) / max_lamp_cells);
   table.cells = glm::ivec2(glm::ceil(size / table.cell_m));
 
   struct Reached {

@@ -18,8 +18,6 @@ struct Groove {
     return has_step && uv.x > 0.5f ? 0.5f : 1.0f;
   }
 
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION
 #include "graphics/shading/relief.glsl"
 };
 
@@ -42,8 +40,6 @@ struct Window {
     return true;
   }
 
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION
 #include "graphics/shading/relief.glsl"
 };
 

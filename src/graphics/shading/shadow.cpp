@@ -6,7 +6,7 @@ namespace parvis::shading {
 namespace {
 
 /// Gives the shared functions the maps that a shader has in its samplers.
-struct Lookup {
+struct ShadowLookup {
   const SunShadow& shadow;
 
   /// As a sampler2DShadow with linear filtering and clamped edges compares.
@@ -23,15 +23,13 @@ struct Lookup {
     return mix(mix(lit(0, 0), lit(1, 0), fx), mix(lit(0, 1), lit(1, 1), fx), fy);
   }
 
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION
 #include "graphics/shading/shadow_filter.glsl"
 };
 
 }  // namespace
 
 float sun_visibility(const SunShadow& shadow, vec3 position, vec3 normal, vec3 to_sun) {
-  return Lookup{shadow}.sun_visibility(shadow.maps, position, normal, to_sun);
+  return ShadowLookup{shadow}.sun_visibility(shadow.maps, position, normal, to_sun);
 }
 
 }  // namespace parvis::shading

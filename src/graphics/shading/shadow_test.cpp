@@ -2,11 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "graphics/shading/test_axes.h"
+
 namespace parvis::shading {
 namespace {
 
 constexpr int texels = 64;
-constexpr vec3 up{0, 0, 1};
 
 /// The sun in the zenith over 64 m x 64 m, one texel per metre: a map that covers [0, 64]^2 and depth 0 at
 /// 100 m of height, 1 at 0. West of x = 32 m stands a roof of 50 m.

@@ -9,14 +9,13 @@
 namespace parvis::shading {
 namespace {
 
-constexpr float pi_f = 3.14159265f;
 constexpr int level_count = 7;
 /// Brighter than this many times a photograph's mean is the sun's disc and its glare in the lens.
 constexpr float sun_threshold = 12.0f;
 
 vec3 direction_of(const ImageF& picture, float x, float y, float heading) {
-  const float azimuth = (x / float(picture.width) - 0.5f) * 2.0f * pi_f + heading;
-  const float polar = y / float(picture.height) * pi_f;
+  const float azimuth = (x / float(picture.width) - 0.5f) * 2.0f * glm::pi<float>() + heading;
+  const float polar = y / float(picture.height) * glm::pi<float>();
   return {std::sin(polar) * std::sin(azimuth), std::sin(polar) * std::cos(azimuth), std::cos(polar)};
 }
 
@@ -103,7 +102,7 @@ ImageF prefiltered(const ImageF& source, float roughness, int samples) {
   ImageF result(source.width, source.height, 3);
   parallel_for(std::size_t(result.height), [&](std::size_t row) {
     const std::vector<LobeSample> lobe =
-        lobe_of_row((float(row) + 0.5f) / float(result.height) * pi_f, roughness, samples);
+        lobe_of_row((float(row) + 0.5f) / float(result.height) * glm::pi<float>(), roughness, samples);
     for (int x = 0; x < result.width; ++x) {
       const float u = (float(x) + 0.5f) / float(result.width);
       vec3 sum(0.0f);
@@ -132,9 +131,9 @@ ImageF with_room_for_levels(const ImageF& picture) {
 std::array<vec3, 9> irradiance_coefficients(const ImageF& picture, float heading) {
   std::array<vec3, 9> sh{};
   for (int y = 0; y < picture.height; ++y) {
-    const float polar = (float(y) + 0.5f) / float(picture.height) * pi_f;
-    const float solid_angle =
-        std::sin(polar) * (pi_f / float(picture.height)) * (2.0f * pi_f / float(picture.width));
+    const float polar = (float(y) + 0.5f) / float(picture.height) * glm::pi<float>();
+    const float solid_angle = std::sin(polar) * (glm::pi<float>() / float(picture.height)) *
+                              (2.0f * glm::pi<float>() / float(picture.width));
     for (int x = 0; x < picture.width; ++x) {
       const vec3 d = direction_of(picture, float(x) + 0.5f, float(y) + 0.5f, heading);
       const vec3 light = solid_angle * pixel(picture, x, y);

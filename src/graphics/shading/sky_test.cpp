@@ -7,10 +7,8 @@
 namespace parvis::shading {
 namespace {
 
-constexpr float pi_f = 3.14159265f;
-
 vec3 random_direction(Random& random) {
-  const float z = random.uniform(-1, 1), azimuth = random.uniform(0, 2 * pi_f);
+  const float z = random.uniform(-1, 1), azimuth = random.uniform(0, 2 * glm::pi<float>());
   return {std::sqrt(1 - z * z) * std::cos(azimuth), std::sqrt(1 - z * z) * std::sin(azimuth), z};
 }
 
@@ -49,7 +47,7 @@ TEST(Sky, AConstantSkyOfRadianceOneGivesIrradiancePi) {
   Random random(2);
   for (int i = 0; i < 100; ++i) {
     const vec3 light = irradiance(sky, random_direction(random));
-    for (int c = 0; c < 3; ++c) ASSERT_NEAR(light[c], pi_f, 0.02f);
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(light[c], glm::pi<float>(), 0.02f);
   }
 }
 
@@ -87,7 +85,8 @@ TEST(Sky, ItsPictureStandsByTheCompass) {
     EXPECT_NEAR(sky_radiance(plain, other, 0.0f).x, 0.1f, 1e-4f);
     EXPECT_LT(irradiance(plain, other).x, irradiance(plain, east).x);
   }
-  const SkyLight turned = make_sky_light(bright_in_the_east(), 1.0f, 0.5f * pi_f);  // clockwise: now south
+  const SkyLight turned =
+      make_sky_light(bright_in_the_east(), 1.0f, 0.5f * glm::pi<float>());  // clockwise: now south
   EXPECT_NEAR(sky_radiance(turned, south, 0.0f).x, 1.0f, 1e-4f);
   EXPECT_NEAR(sky_radiance(turned, east, 0.0f).x, 0.1f, 1e-4f);
   EXPECT_NEAR(irradiance(turned, south).x, irradiance(plain, east).x, 0.02f);
@@ -96,7 +95,8 @@ TEST(Sky, ItsPictureStandsByTheCompass) {
 TEST(Sky, APictureIsEvenInAzimuthAndElevation) {
   for (int row = 0; row <= 8; ++row)  // from the zenith to the nadir
     for (int column = 1; column < 16; ++column) {
-      const float polar = pi_f * float(row) / 8.0f, azimuth = pi_f * float(column - 8) / 8.0f;
+      const float polar = glm::pi<float>() * float(row) / 8.0f,
+                  azimuth = glm::pi<float>() * float(column - 8) / 8.0f;
       const vec3 direction(std::sin(polar) * std::sin(azimuth), std::sin(polar) * std::cos(azimuth),
                            std::cos(polar));
       const vec2 uv = equirect_uv(direction, 0.0f);

@@ -15,7 +15,6 @@ constexpr int max_side = 2048;  // what OpenGL 4.5 promises of 3D textures
 constexpr int directions = 12;
 constexpr std::array<float, 10> distances_m{1.5f,  3.0f,  5.0f,  7.5f,  11.0f,
                                             16.0f, 23.0f, 33.0f, 48.0f, sky_visibility_reach_m};
-constexpr float pi_f = 3.14159265f;
 
 /// Walls reflect some of the light that they keep off: an albedo of city walls, themselves lit by the open
 /// share.
@@ -28,24 +27,26 @@ struct OpenSky {
 
   /// A sector about azimuth `u` is open above the elevation whose tangent is `horizon`.
   void add_sector(glm::vec2 u, float horizon) {
-    constexpr float width = 2.0f * pi_f / float(directions);
+    constexpr float width = 2.0f * glm::pi<float>() / float(directions);
     const float elevation = std::atan(std::max(horizon, 0.0f));
     const float s = std::sin(elevation), c = std::cos(elevation);
     solid_angle += width * (1.0f - s);
-    direction += width * vec3(0.5f * (0.5f * pi_f - elevation - s * c) * u, 0.5f * c * c);
+    direction += width * vec3(0.5f * (0.5f * glm::pi<float>() - elevation - s * c) * u, 0.5f * c * c);
   }
 
   /// The stored cell: hidden directions show walls and those below the horizon show ground, both lit by the
   /// same sky.
   vec4 cell(WallLight walls) const {
     if (walls == WallLight::none)
-      return vec4(direction / (2.0f * pi_f) + vec3(0.5f), solid_angle / (4.0f * pi_f));
-    const float open = solid_angle / (2.0f * pi_f);
+      return vec4(direction / (2.0f * glm::pi<float>()) + vec3(0.5f),
+                  solid_angle / (4.0f * glm::pi<float>()));
+    const float open = solid_angle / (2.0f * glm::pi<float>());
     const float wall = wall_albedo * open;
-    const vec3 up(0.0f, 0.0f, pi_f);
+    const vec3 up(0.0f, 0.0f, glm::pi<float>());
     const float mean =
-        (solid_angle + wall * (2.0f * pi_f - solid_angle) + open * 2.0f * pi_f) / (4.0f * pi_f);
-    const vec3 along = (direction + wall * (up - direction) - open * up) / (2.0f * pi_f);
+        (solid_angle + wall * (2.0f * glm::pi<float>() - solid_angle) + open * 2.0f * glm::pi<float>()) /
+        (4.0f * glm::pi<float>());
+    const vec3 along = (direction + wall * (up - direction) - open * up) / (2.0f * glm::pi<float>());
     return vec4(along + vec3(0.5f), mean);
   }
 };
@@ -83,7 +84,7 @@ void fill_column(Grid& grid, const Heightfield& heights, WallLight walls, int x,
   std::array<glm::vec2, directions> azimuths;
   std::array<std::array<float, distances_m.size()>, directions> surroundings;
   for (std::size_t d = 0; d < directions; ++d) {
-    const float angle = 2.0f * pi_f * (float(d) + 0.5f) / float(directions);
+    const float angle = 2.0f * glm::pi<float>() * (float(d) + 0.5f) / float(directions);
     azimuths[d] = {std::cos(angle), std::sin(angle)};
     for (std::size_t i = 0; i < distances_m.size(); ++i)
       surroundings[d][i] = heights.height_m(centre + distances_m[i] * azimuths[d]);

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "graphics/shading/test_axes.h"
+
 namespace parvis::shading {
 namespace {
-
-constexpr vec3 up{0, 0, 1};
 
 /// The top of a block, as seen from above.
 Mesh roof(float west, float east, float south, float north, float height_m) {

@@ -2,12 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "graphics/shading/test_axes.h"
+
 namespace parvis::shading {
 namespace {
 
 /// A level surface whose u runs east and whose v runs south, as the rows of an upright picture do.
 const TextureFrame upright{{2, 0, 0}, {0, 3, 0}, {0.5f, 0.0f}, {0.0f, -0.5f}};
-const vec3 up(0, 0, 1);
 
 vec3 texel_of(vec3 n) { return 0.5f * n + vec3(0.5f); }
 

@@ -11,7 +11,7 @@ namespace parvis::house {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int width = 64, height = 36;
+constexpr int film_width = 64, film_height = 36;
 
 /// What a program prints, without the last line's end.
 std::string output_of(const std::string& command) {
@@ -23,7 +23,7 @@ std::string output_of(const std::string& command) {
   return text;
 }
 
-Image8 grey_frame(int value) { return Image8(width, height, 4, std::uint8_t(value)); }
+Image8 grey_frame(int value) { return Image8(film_width, film_height, 4, std::uint8_t(value)); }
 
 class FilmTest : public testing::Test {
  protected:
@@ -51,7 +51,7 @@ class SearchPath {
 
 TEST_F(FilmTest, HasTheFramesTheSizeAndTheLightThatItWasGiven) {
   const fs::path file = folder_.path() / "of grey" / "a film: it's grey.mp4";
-  Result<Film> film = Film::open(file, width, height, 12);
+  Result<Film> film = Film::open(file, film_width, film_height, 12);
   ASSERT_TRUE(film) << to_string(film.errors());
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(film->add(grey_frame(200)));
   EXPECT_FALSE(fs::exists(file)) << "it appears when it is whole";
@@ -65,7 +65,7 @@ TEST_F(FilmTest, HasTheFramesTheSizeAndTheLightThatItWasGiven) {
             "h264,64,36,12/1,5");
   const std::string pixels =
       output_of("ffmpeg -v error -i file:" + name + " -frames:v 1 -f rawvideo -pix_fmt gray -");
-  ASSERT_EQ(pixels.size(), std::size_t(width) * height);
+  ASSERT_EQ(pixels.size(), std::size_t(film_width) * film_height);
   for (const char pixel : pixels)
     EXPECT_NEAR(int(static_cast<unsigned char>(pixel)), 200, 3);  // H.264 is lossy
   EXPECT_EQ(std::distance(fs::directory_iterator(file.parent_path()), {}), 1) << "nothing beside the film";
@@ -74,7 +74,7 @@ TEST_F(FilmTest, HasTheFramesTheSizeAndTheLightThatItWasGiven) {
 TEST_F(FilmTest, TakesANameWithAColonInTheCurrentFolder) {
   const fs::path before = fs::current_path();
   fs::current_path(folder_.path());
-  Result<Film> film = Film::open("at-12:30.mp4", width, height, 24);
+  Result<Film> film = Film::open("at-12:30.mp4", film_width, film_height, 24);
   const bool is_written = film && film->add(grey_frame(90)) && film->finish();
   fs::current_path(before);
   EXPECT_TRUE(is_written);
@@ -83,7 +83,7 @@ TEST_F(FilmTest, TakesANameWithAColonInTheCurrentFolder) {
 
 TEST_F(FilmTest, LeavesNothingBehindWhenItIsGivenUp) {
   {
-    Result<Film> film = Film::open(folder_.path() / "half.mp4", width, height, 24);
+    Result<Film> film = Film::open(folder_.path() / "half.mp4", film_width, film_height, 24);
     ASSERT_TRUE(film) << to_string(film.errors());
     ASSERT_TRUE(film->add(grey_frame(90)));
   }
@@ -93,7 +93,7 @@ TEST_F(FilmTest, LeavesNothingBehindWhenItIsGivenUp) {
 TEST_F(FilmTest, KeepsAnEarlierFilmUntilTheNewOneIsWhole) {
   const fs::path file = folder_.write("film.mp4", "the film of yesterday");
   {
-    Result<Film> film = Film::open(file, width, height, 24);
+    Result<Film> film = Film::open(file, film_width, film_height, 24);
     ASSERT_TRUE(film) << to_string(film.errors());
     ASSERT_TRUE(film->add(grey_frame(90)));
   }
@@ -106,7 +106,7 @@ TEST_F(FilmTest, ReportsAnEncoderThatFailsAndLeavesNothingBehind) {
   fs::permissions(program, fs::perms::owner_all);
   const SearchPath path((folder_.path() / "bin").string() + ":/usr/bin:/bin");
   const fs::path films = folder_.path() / "films";
-  Result<Film> film = Film::open(films / "film.mp4", width, height, 24);
+  Result<Film> film = Film::open(films / "film.mp4", film_width, film_height, 24);
   ASSERT_TRUE(film) << to_string(film.errors());
   bool is_told = false;
   for (int i = 0; i < 100 && !is_told; ++i) is_told = !film->add(grey_frame(90));  // a pipe holds some frames
@@ -119,7 +119,7 @@ TEST_F(FilmTest, ReportsAnEncoderThatFailsAndLeavesNothingBehind) {
 
 TEST_F(FilmTest, NamesTheProgramThatIsMissing) {
   const SearchPath path(folder_.path().string());
-  const Result<Film> film = Film::open(folder_.path() / "film.mp4", width, height, 24);
+  const Result<Film> film = Film::open(folder_.path() / "film.mp4", film_width, film_height, 24);
   ASSERT_FALSE(film);
   EXPECT_NE(to_string(film.errors()).find("ffmpeg"), std::string::npos);
   EXPECT_TRUE(fs::is_empty(folder_.path()));
@@ -128,14 +128,14 @@ TEST_F(FilmTest, NamesTheProgramThatIsMissing) {
 TEST_F(FilmTest, RefusesWhatCannotBeAFilm) {
   EXPECT_FALSE(Film::open(folder_.path() / "odd.mp4", 63, 36, 24));
   EXPECT_FALSE(Film::open(folder_.path() / "odd.mp4", 64, 35, 24));
-  EXPECT_FALSE(Film::open(folder_.path() / "film.gif", width, height, 24));
+  EXPECT_FALSE(Film::open(folder_.path() / "film.gif", film_width, film_height, 24));
   const fs::path file = folder_.write("a_file", "in the way");
-  EXPECT_FALSE(Film::open(file / "film.mp4", width, height, 24));
+  EXPECT_FALSE(Film::open(file / "film.mp4", film_width, film_height, 24));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1);
 
-  Result<Film> film = Film::open(folder_.path() / "film.mp4", width, height, 24);
+  Result<Film> film = Film::open(folder_.path() / "film.mp4", film_width, film_height, 24);
   ASSERT_TRUE(film) << to_string(film.errors());
-  EXPECT_FALSE(film->add(Image8(width, height + 2, 3)));
+  EXPECT_FALSE(film->add(Image8(film_width, film_height + 2, 3)));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "graphics/gl/context.h"
 #include "graphics/shading/tone_curve.h"
 #include "house/stage/place_check.h"
+#include "house/stage/refinement.h"
 #include "reflections/methods/frame.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
@@ -77,7 +78,12 @@ Result<Play> open_play(const House& house, const std::filesystem::path& script,
 }
 
 Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer, ShownRadiance refined)
-    : play_(std::move(play)), renderer_(std::move(renderer)), refined_(std::move(refined)) {}
+    : play_(std::move(play)),
+      renderer_(std::move(renderer)),
+      refined_(std::move(refined)),
+      kept_rays_(std::make_unique<KeptRays>()) {}
+
+Stage::~Stage() = default;
 
 Result<std::unique_ptr<Stage>> Stage::create(Play play) {
   if (Status status = play.house->get<methods::Registry>().prepare(play.scene); !status)
@@ -158,7 +164,7 @@ void Stage::refine(const Camera& camera, int width, int height) {
     reflections_->hold(double(methods::settings(play_.scene).budget_ms));
     if (size != glm::ivec2(renderer_->width(), renderer_->height())) return draw(camera, size, size);
     refinement_ =
-        std::make_unique<Refinement>(kept_rays_, play_.scene, renderer_->sky(), renderer_->drawn_light(),
+        std::make_unique<Refinement>(*kept_rays_, play_.scene, renderer_->sky(), renderer_->drawn_light(),
                                      camera, width, height, methods::settings(play_.scene).bounces);
   }
   if (refinement_->samples() < render::samples_per_pixel) return;

@@ -14,7 +14,6 @@
 #include "graphics/render/drawables.h"
 #include "graphics/render/picture_scale.h"
 #include "graphics/render/renderer.h"
-#include "house/stage/refinement.h"
 #include "house/stage/scene_camera.h"
 #include "house/stage/shown_radiance.h"
 #include "machines/processes.h"
@@ -25,6 +24,9 @@
 #include "scene/script/scene_loader.h"
 
 namespace parvis::house {
+
+class KeptRays;
+class Refinement;
 
 /// A running scene: data and the clock that drives its processes.
 struct Play {
@@ -63,6 +65,7 @@ class Stage {
   /// method's preparation, or of a shader.
   static Result<std::unique_ptr<Stage>> create(Play play);
   Stage(const Stage&) = delete;
+  ~Stage();
 
   Play& play() { return play_; }  ///< the running scene
   /// The rooms whose nodes, processes, drawables and methods the stage uses.
@@ -144,7 +147,7 @@ class Stage {
   int width_ = 0, height_ = 0;
   ShownRadiance refined_;
   int refined_samples_ = 0;
-  KeptRays kept_rays_;                      ///< of the pictures at rest
+  std::unique_ptr<KeptRays> kept_rays_;     ///< of the pictures at rest
   std::unique_ptr<Refinement> refinement_;  ///< last: it reads the renderer's light
 };
 

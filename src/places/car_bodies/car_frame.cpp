@@ -12,7 +12,7 @@
 namespace parvis::car_bodies {
 namespace {
 
-constexpr int x = 0, y = 1, z = 2;
+constexpr int x_axis = 0, y_axis = 1, z_axis = 2;
 
 /// Of cars, vans and buses over everything, metres.
 constexpr float min_length_m = 2.5f, max_length_m = 20.0f, usual_length_m = 4.4f;
@@ -106,8 +106,8 @@ struct Axes {
 
 /// The width is the axis across which the body is alike on both sides; where that is not clear, z is up.
 Axes axes_of(glm::vec3 size, const Cells& cells) {
-  const int length = size.x >= size.y && size.x >= size.z ? x : size.y >= size.z ? y : z;
-  Axes usual{length, length == x ? y : x, length == z ? y : z};
+  const int length = size.x >= size.y && size.x >= size.z ? x_axis : size.y >= size.z ? y_axis : z_axis;
+  Axes usual{length, length == x_axis ? y_axis : x_axis, length == z_axis ? y_axis : z_axis};
   if (cells.likeness(usual.height) > cells.likeness(usual.width) + clear_margin)
     std::swap(usual.width, usual.height);
   return usual;
@@ -143,8 +143,8 @@ void set_scale(CarFrame& frame, glm::vec3 length_width_height) {
 /// Attribute `up` for a body whose height runs along the model's y. A file with z up that was read as one
 /// with y up has its roof toward negative y, the other way round it is toward positive y.
 std::string up_of(const Axes& axes, const Cells& cells) {
-  if (axes.height != y) return "";
-  const glm::ivec2 covered = cells.columns_covered(axes.length, y);
+  if (axes.height != y_axis) return "";
+  const glm::ivec2 covered = cells.columns_covered(axes.length, y_axis);
   return covered.x < covered.y ? "y" : "z";  // a roof is shorter than the body below
 }
 
@@ -177,7 +177,7 @@ Result<CarFrame> find_frame(const scene::Model& model, const std::string& file) 
   const Body as_read(model);
   const Cells cells(as_read);
   const Axes axes = axes_of(size, cells);
-  if (axes.height == x || (axes.length == z && axes.height != y))
+  if (axes.height == x_axis || (axes.length == z_axis && axes.height != y_axis))
     return error_at(
         where,
         "the body lies on its side: its height runs along x. Turn it in the program that made it, "
@@ -185,7 +185,7 @@ Result<CarFrame> find_frame(const scene::Model& model, const std::string& file) 
   CarFrame frame;
   frame.up = up_of(axes, cells);
   set_scale(frame, {size[axes.length], size[axes.width], size[axes.height]});
-  if (axes.length != x) frame.heading_deg = 90.0f;
+  if (axes.length != x_axis) frame.heading_deg = 90.0f;
   if (faces_back(SideView(Body(model, frame.car_from_model())))) frame.heading_deg -= 180.0f;
   if (frame.heading_deg == -180.0f) frame.heading_deg = 180.0f;
   frame.aside_m = Body(model, frame.car_from_model()).middle_y();

@@ -7,7 +7,7 @@ namespace parvis::car_bodies {
 namespace {
 
 constexpr float cell_m = 0.03f;
-constexpr float skin_m = 0.05f;  // depth of what counts as the surface: seals, recessed panes
+constexpr float skin_depth_m = 0.05f;  // depth of what counts as the surface: seals, recessed panes
 
 }  // namespace
 
@@ -32,7 +32,7 @@ OuterSkin::OuterSkin(const Body& body) : bounds_(body.bounds()) {
 
 bool OuterSkin::holds(glm::vec3 point) const {
   return std::ranges::any_of(views_, [&](const View& view) {
-    return view.sign * point[view.axis] > view.outermost[cell(view, point)] - skin_m;
+    return view.sign * point[view.axis] > view.outermost[cell(view, point)] - skin_depth_m;
   });
 }
 

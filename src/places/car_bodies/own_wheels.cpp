@@ -22,16 +22,16 @@ constexpr float road_share = 0.25f;        // of the diameter, within which the 
 constexpr float place_share = 0.3f;        // of the radius, by which the two of a pair may differ
 constexpr float max_radius_ratio = 1.15f;  // of the two of a pair
 constexpr float min_wheelbase_share = 0.25f;  // of the car's length
-constexpr float slack = 1.03f;                // of the cylinder in which a wheel's other pieces lie
+constexpr float cylinder_slack = 1.03f;       // of the cylinder in which a wheel's other pieces lie
 
 /// Triangles of a part that hang together by the places of their corners.
-struct Piece {
+struct ConnectedPiece {
   std::size_t part = 0;
   std::vector<std::uint32_t> triangles = {};
   Bounds bounds = {};
 };
 
-void add_pieces(const Body& body, std::size_t part, std::vector<Piece>& pieces) {
+void add_pieces(const Body& body, std::size_t part, std::vector<ConnectedPiece>& pieces) {
   const Mesh& mesh = body.model().parts[part].mesh;
   // Corners at one place are one: texture and normals divide the vertices of a seam.
   std::unordered_map<glm::vec3, std::uint32_t> first_at;
@@ -47,7 +47,7 @@ void add_pieces(const Body& body, std::size_t part, std::vector<Piece>& pieces) 
     const std::size_t root = groups.root(place[mesh.indices[3 * std::size_t(triangle)]]);
     const auto [found, is_new] = piece_of.try_emplace(root, pieces.size());
     if (is_new) pieces.push_back({.part = part});
-    Piece& piece = pieces[found->second];
+    ConnectedPiece& piece = pieces[found->second];
     piece.triangles.push_back(triangle);
     for (const glm::vec3& corner : body.corners(part, triangle)) piece.bounds.add(corner);
   }
@@ -55,7 +55,7 @@ void add_pieces(const Body& body, std::size_t part, std::vector<Piece>& pieces) 
 
 /// Calls `visit` with the distance and the direction (0 to 1, once about) from the axle of points of a piece.
 template <class Visit>
-void visit_radii(const Body& body, const Piece& piece, glm::vec3 centre, const Visit& visit) {
+void visit_radii(const Body& body, const ConnectedPiece& piece, glm::vec3 centre, const Visit& visit) {
   constexpr float min_step_m = 1e-3f;
   const float step = std::max(0.05f * std::max(piece.bounds.size().x, piece.bounds.size().z), min_step_m);
   for (const std::uint32_t triangle : piece.triangles)
@@ -70,7 +70,7 @@ struct Outline {
   float min_radius, max_radius;
 };
 
-Outline outline_of(const Body& body, const Piece& piece) {
+Outline outline_of(const Body& body, const ConnectedPiece& piece) {
   std::array<float, 24> reach{};
   visit_radii(body, piece, piece.bounds.centre(), [&](float radius, float direction) {
     float& here = reach[std::min(std::size_t(direction * float(reach.size())), reach.size() - 1)];
@@ -80,7 +80,7 @@ Outline outline_of(const Body& body, const Piece& piece) {
   return {low, high};
 }
 
-bool looks_like_a_wheel(const Body& body, const Piece& piece) {
+bool looks_like_a_wheel(const Body& body, const ConnectedPiece& piece) {
   const glm::vec3 size = piece.bounds.size();
   const float diameter = std::max(size.x, size.z);
   if (diameter < min_diameter_m || diameter > max_diameter_m || size.y > max_width_share * diameter ||
@@ -92,14 +92,14 @@ bool looks_like_a_wheel(const Body& body, const Piece& piece) {
 }
 
 /// The largest round pieces: those about the axle of a larger one on the same side are its rim or its twin.
-std::vector<OwnWheel> round_places(const Body& body, std::vector<Piece> pieces) {
-  std::erase_if(pieces, [&](const Piece& piece) { return !looks_like_a_wheel(body, piece); });
-  std::ranges::sort(pieces, std::greater(), [](const Piece& piece) {
+std::vector<OwnWheel> round_places(const Body& body, std::vector<ConnectedPiece> pieces) {
+  std::erase_if(pieces, [&](const ConnectedPiece& piece) { return !looks_like_a_wheel(body, piece); });
+  std::ranges::sort(pieces, std::greater(), [](const ConnectedPiece& piece) {
     const glm::vec3 centre = piece.bounds.centre();
     return std::tuple(piece.bounds.size().z, centre.x, centre.y, centre.z);
   });
   std::vector<OwnWheel> wheels;
-  for (const Piece& piece : pieces) {
+  for (const ConnectedPiece& piece : pieces) {
     const glm::vec3 centre = piece.bounds.centre();
     const bool is_inside = std::ranges::any_of(wheels, [&](const OwnWheel& wheel) {
       const glm::vec2 off(centre.x - wheel.centre.x, centre.z - wheel.centre.z);
@@ -130,26 +130,26 @@ std::vector<OwnWheel> pairs_of(const Body& body, std::vector<OwnWheel> wheels) {
   return pairs;
 }
 
-bool lies_in(const Body& body, const Piece& piece, const OwnWheel& wheel) {
+bool lies_in(const Body& body, const ConnectedPiece& piece, const OwnWheel& wheel) {
   const float reach_y = 0.5f * wheel.width + 0.25f * wheel.radius;  // hubs stand out
   if (piece.bounds.min.y < wheel.centre.y - reach_y || piece.bounds.max.y > wheel.centre.y + reach_y)
     return false;
   if (std::abs(piece.bounds.centre().x - wheel.centre.x) > wheel.radius) return false;
   float radius = 0.0f;
   visit_radii(body, piece, wheel.centre, [&](float here, float) { radius = std::max(radius, here); });
-  return radius <= slack * wheel.radius;
+  return radius <= cylinder_slack * wheel.radius;
 }
 
 }  // namespace
 
 std::vector<OwnWheel> find_own_wheels(const Body& body) {
-  std::vector<Piece> pieces;
+  std::vector<ConnectedPiece> pieces;
   for (std::size_t part = 0; part < body.model().parts.size(); ++part) add_pieces(body, part, pieces);
   std::vector<OwnWheel> wheels = pairs_of(body, round_places(body, pieces));
   if (wheels.size() < 4 ||
       wheels.back().centre.x - wheels.front().centre.x < min_wheelbase_share * body.bounds().size().x)
     return {};
-  for (const Piece& piece : pieces)
+  for (const ConnectedPiece& piece : pieces)
     for (OwnWheel& wheel : wheels)
       if (lies_in(body, piece, wheel)) {
         std::vector<std::uint32_t>& taken = wheel.triangles[piece.part];

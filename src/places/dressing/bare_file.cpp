@@ -19,9 +19,9 @@ namespace {
 constexpr float exhibit_m = 30.0f;      // what is smaller is a thing to look at: a car, a house
 constexpr float alone_m = 70.0f;        // a town model no larger is one house
 constexpr double dense_share = 0.12;    // of the ground, which is built over
-constexpr float margin_m = 60.0f;       // of ground around the place, for choosing views
+constexpr float view_margin_m = 60.0f;  // of ground around the place, for choosing views
 constexpr float steep = 0.7f;           // cosine of 45 degrees: green that rises so was measured from the air
-constexpr float upright = 0.3f;         // of 73 degrees: what is steeper is a wall
+constexpr float wall_cos = 0.3f;        // of 73 degrees: what is steeper is a wall
 constexpr float furnished_m = 6000.0f;  // of streets about the camera; more would make pictures slow
 constexpr int max_scripts = 1000;       // of one name in a folder
 
@@ -129,7 +129,7 @@ std::string dressing_of(const Model& model, bool is_alone) {
   const bool has_windows = is_alone && (has_surface(model, "Window") || has_surface(model, "Door"));
   if (is_bare(model, "WallSurface") && !has_windows) add("facades(target=\"WallSurface\")");
   if (is_bare(model, "RoofSurface") && !has_windows) add("roofs(target=\"RoofSurface\")");
-  if (is_bare(model, "GenericCityObject") && has_steeper(model, "GenericCityObject", upright))
+  if (is_bare(model, "GenericCityObject") && has_steeper(model, "GenericCityObject", wall_cos))
     add("facades(target=\"GenericCityObject\", openings=0)");  // garden walls, quays
   if (is_bare(model, "TINRelief"))
     add(is_dense(model, "TINRelief") ? "ground(target=\"TINRelief\", surface=\"paving\")"
@@ -237,7 +237,7 @@ std::string bare_scene(const Model& model, const std::string& file,
   scene.objects.emplace_back();
   scene.objects.back().model = std::make_shared<const Model>(model);
   const std::vector<scene::Road> surfaces = model.roads.empty() ? road_surfaces(model) : model.roads;
-  const scene::PlaceHeights place(scene, model.roads, margin_m);
+  const scene::PlaceHeights place(scene, model.roads, view_margin_m);
   const glm::vec3 size = scene::bounds(model).size();
   const bool is_town = is_city(model), is_exhibit = !is_town && std::max(size.x, size.y) < exhibit_m;
   const bool is_alone = is_exhibit || (is_town && surfaces.empty() && std::max(size.x, size.y) < alone_m);

@@ -8,8 +8,7 @@ namespace parvis::dressing {
 namespace {
 
 constexpr std::size_t min_sides = 12, max_sides = 500;  // of more sides, none is seen
-constexpr float same_point_m = 0.02f;
-const float min_cos = std::cos(glm::radians(30.0f));
+const float min_side_cos = std::cos(glm::radians(30.0f));
 
 using Point = std::array<long, 3>;  // in steps of same_point_m
 
@@ -50,7 +49,7 @@ std::vector<std::optional<ConeSide>> cone_sides(const std::vector<ModelTriangle>
         const std::vector<std::size_t>& both = at_foot.at(place_of(roofs[i].corners[k]));
         if (k == cone.top || both.size() != 2) continue;
         const glm::vec3 other = roofs[both[0] == i ? both[1] : both[0]].normal;
-        if (glm::dot(roofs[i].normal, other) >= min_cos)
+        if (glm::dot(roofs[i].normal, other) >= min_side_cos)
           cone.normals[k] = glm::normalize(roofs[i].normal + other);
       }
       found[i] = cone;

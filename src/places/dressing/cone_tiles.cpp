@@ -11,7 +11,7 @@ namespace {
 
 constexpr float tile_m = city::roof_sheet_m / float(city::roof_tile_columns);
 constexpr float course_m = city::roof_sheet_m / float(city::roof_tile_rows);
-constexpr float narrowest_m = 0.4f;  // radius of a cone that is no longer divided
+constexpr float min_cone_radius_m = 0.4f;  // radius of a cone that is no longer divided
 constexpr float fewest_tiles = 6.0f;
 constexpr float triangle_counted_at = 0.7f;  // of the way to its foot: half its area lies below
 constexpr std::size_t max_rings = 8;
@@ -22,16 +22,16 @@ std::vector<float> ring_feet(const ConeSide& cone) {
   std::vector<float> feet{1.0f};
   while (feet.size() < max_rings) {
     const float share = course_m / cone.slope_m * std::round(0.5f * feet.back() * cone.slope_m / course_m);
-    if (!(share * cone.radius_m > narrowest_m) || !(share < 0.9f * feet.back())) break;
+    if (!(share * cone.radius_m > min_cone_radius_m) || !(share < 0.9f * feet.back())) break;
     feet.push_back(share);
   }
   return feet;
 }
 
 /// A side of a cone between two directions from its top.
-class Side {
+class ConeSector {
  public:
-  Side(const ModelTriangle& side, const ConeSide& cone)
+  ConeSector(const ModelTriangle& side, const ConeSide& cone)
       : side_(side), cone_(cone), foot_{(cone.top + 1) % 3, (cone.top + 2) % 3} {
     for (std::size_t k = 0; k < 2; ++k) {
       const glm::vec2 out(side.corners[foot_[k]] - side.corners[cone.top]);
@@ -91,7 +91,7 @@ class Side {
 }  // namespace
 
 std::vector<TiledPiece> cone_tiles(const ModelTriangle& side, const ConeSide& cone) {
-  const Side whole(side, cone);
+  const ConeSector whole(side, cone);
   const std::vector<float> feet = ring_feet(cone);
   std::vector<TiledPiece> pieces;
   pieces.reserve(2 * feet.size());

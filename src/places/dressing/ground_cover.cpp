@@ -40,13 +40,15 @@ const Cover& cover_named(std::string_view name) {
   return *found;
 }
 
-constexpr float cell_m = 4.0f;    // the lowest point of 3 x 3 cells is the ground of the middle one
-constexpr float raised_m = 1.2f;  // above it nothing is ground
+constexpr float ground_cell_m = 4.0f;  // the lowest point of 3 x 3 cells is the ground of the middle one
+constexpr float raised_m = 1.2f;       // above it nothing is ground
 constexpr float lowest_tree_m = 3.0f, highest_tree_m = 22.0f;
 
 using Cell = std::pair<int, int>;
 
-Cell cell_of(glm::vec3 p) { return {int(std::floor(p.x / cell_m)), int(std::floor(p.y / cell_m))}; }
+Cell cell_of(glm::vec3 p) {
+  return {int(std::floor(p.x / ground_cell_m)), int(std::floor(p.y / ground_cell_m))};
+}
 
 /// The ground below green, out of the lowest points nearby.
 class Ground {

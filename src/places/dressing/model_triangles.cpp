@@ -10,8 +10,6 @@
 namespace parvis::dressing {
 namespace {
 
-constexpr float same_point_m = 0.02f;
-
 /// Triangles that share a corner belong together.
 void number_buildings(std::vector<ModelTriangle>& triangles) {
   TrianglesAtCorners joined(same_point_m);

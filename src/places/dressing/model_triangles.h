@@ -14,6 +14,9 @@
 
 namespace parvis::dressing {
 
+/// Distance up to which two points of a file count as one.
+inline constexpr float same_point_m = 0.02f;
+
 /// A triangle taken out of a model.
 struct ModelTriangle {
   std::array<glm::vec3, 3> corners;  ///< in the model's frame

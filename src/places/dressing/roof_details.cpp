@@ -17,9 +17,9 @@ namespace {
 
 using glm::vec2, glm::vec3;
 
-constexpr float same_point_m = 0.02f, same_height_m = 0.3f;
+constexpr float same_height_m = 0.3f;
 constexpr float min_roof_m2 = 20.0f, large_roof_m2 = 400.0f;  // a shed; an office
-constexpr float parapet_m = 0.22f, overhang_m = 0.05f, fascia_m = 0.12f;
+constexpr float parapet_m = 0.22f, overhang_m = 0.05f, eaves_fascia_m = 0.12f;
 
 const std::array<vec3, 4> edge_colours{
     {{0.72f, 0.7f, 0.66f}, {0.5f, 0.49f, 0.47f}, {0.3f, 0.31f, 0.33f}, {0.1f, 0.1f, 0.11f}}};
@@ -105,9 +105,9 @@ struct BuildingRoofs {
   int node = 0;
 };
 
-using Corner = std::tuple<long, long, long>;
+using RoundedCorner = std::tuple<long, long, long>;
 
-Corner corner_of(vec3 p) {
+RoundedCorner corner_of(vec3 p) {
   return {std::lround(p.x / same_point_m), std::lround(p.y / same_point_m), std::lround(p.z / same_point_m)};
 }
 
@@ -133,7 +133,7 @@ Beside beside(const RoofEdge& edge, const RoofFinder& finder) {
 
 std::map<std::size_t, BuildingRoofs> buildings_of(const std::vector<ModelTriangle>& roofs,
                                                   const RoofFinder& finder) {
-  std::map<std::pair<Corner, Corner>, std::vector<Side>> sides;
+  std::map<std::pair<RoundedCorner, RoundedCorner>, std::vector<Side>> sides;
   std::map<std::size_t, BuildingRoofs> buildings;
   for (std::size_t i = 0; i < roofs.size(); ++i) {
     BuildingRoofs& building = buildings[roofs[i].building];
@@ -257,7 +257,7 @@ vec2 mitre(vec2 incoming, vec2 outgoing, float width_m) {
 }
 
 void add_parapets(const BuildingRoofs& building, float height_m, int material, Builder& builder) {
-  std::map<Corner, vec2> leaving, arriving;  // along the free edges at each corner
+  std::map<RoundedCorner, vec2> leaving, arriving;  // along the free edges at each corner
   for (const RoofEdge& edge : building.edges)
     if (edge.beside == Beside::nothing)
       leaving.emplace(corner_of(edge.from), edge.along()), arriving.emplace(corner_of(edge.to), edge.along());
@@ -274,8 +274,8 @@ void add_parapets(const BuildingRoofs& building, float height_m, int material, B
       return std::pair{at(edge.from, coming, along, inward_m, up_m),
                        at(edge.to, along, going, inward_m, up_m)};
     };
-    const auto [a_low, b_low] = pair(-overhang_m, -fascia_m);
-    const auto [a_wall, b_wall] = pair(0.0f, -fascia_m);
+    const auto [a_low, b_low] = pair(-overhang_m, -eaves_fascia_m);
+    const auto [a_wall, b_wall] = pair(0.0f, -eaves_fascia_m);
     const auto [a_top, b_top] = pair(-overhang_m, height_m);
     const auto [a_inside, b_inside] = pair(parapet_m, height_m);
     const auto [a_roof, b_roof] = pair(parapet_m, 0.0f);

@@ -12,11 +12,10 @@ namespace {
 constexpr std::size_t min_facets = 3;  // two are a corner
 constexpr float max_facet_m = 6.0f;    // wider ones have rows of windows of their own
 const float min_cos = std::cos(glm::radians(30.0f)), max_cos = std::cos(glm::radians(1.0f));
-constexpr float same_height_m = 0.1f;  // of the feet and of the eaves of a run
-constexpr float same_point_m = 0.02f;  // facets share their corners in the file
-constexpr float beside_m = 0.1f;       // overlap in height from which on a wall meets another one
-constexpr std::size_t max_ends = 50;   // at one point: maps that heap more on it are wrong
-constexpr float even = 0.05f;          // widths of facets that differ by a smaller share are the same
+constexpr float same_run_height_m = 0.1f;  // of the feet and of the eaves of a run
+constexpr float beside_m = 0.1f;           // overlap in height from which on a wall meets another one
+constexpr std::size_t max_ends = 50;       // at one point: maps that heap more on it are wrong
+constexpr float even = 0.05f;              // widths of facets that differ by a smaller share are the same
 
 float width_of(const WallPanel& panel) { return panel.high.x - panel.low.x; }
 
@@ -81,8 +80,8 @@ class PanelEnds {
 bool are_facets_of_a_curve(const WallPanel& a, const WallPanel& b) {
   const float cosine = glm::dot(a.normal, b.normal);
   return std::max(width_of(a), width_of(b)) <= max_facet_m && a.building == b.building && a.kind == b.kind &&
-         a.stands_on_ground == b.stands_on_ground && std::abs(a.low.y - b.low.y) < same_height_m &&
-         std::abs(a.eaves_m - b.eaves_m) < same_height_m && cosine >= min_cos && cosine <= max_cos;
+         a.stands_on_ground == b.stands_on_ground && std::abs(a.low.y - b.low.y) < same_run_height_m &&
+         std::abs(a.eaves_m - b.eaves_m) < same_run_height_m && cosine >= min_cos && cosine <= max_cos;
 }
 
 /// The panels after a first one, which is among them, from facet to facet; all panels of a ring.

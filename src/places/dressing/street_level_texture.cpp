@@ -17,7 +17,7 @@ using city::Rect, city::SurfaceCanvas, city::Texel, city::WindowStyle, city::mat
 constexpr float door_m = 1.0f, leaf_m = 2.1f, doorway_m = 2.5f;  // width; heights of its leaf and its light
 constexpr float plinth_m = 0.32f;
 
-glm::vec3 white_paint() { return linear_from_srgb8(0xE2, 0xDF, 0xD6); }
+glm::vec3 white_joinery() { return linear_from_srgb8(0xE2, 0xDF, 0xD6); }
 glm::vec3 stone() { return linear_from_srgb8(0x8E, 0x8A, 0x82); }
 
 /// A stone along the foot of the wall.
@@ -32,7 +32,7 @@ void paint_front_door(SurfaceCanvas& canvas, float x, float foot, float width_m,
                       bool has_lintel, Random& random) {
   const Rect doorway{x - 0.5f * width_m, foot + 0.02f, x + 0.5f * width_m, foot + doorway_m};
   if (has_lintel) paint_brick_lintel(canvas, x, doorway.y1, 0.5f * width_m + 0.08f);
-  canvas.fill(doorway, matt(white_paint(), -0.12f, 0.5f));
+  canvas.fill(doorway, matt(white_joinery(), -0.12f, 0.5f));
   const Rect light{doorway.x0 + 0.08f, foot + leaf_m + 0.06f, doorway.x1 - 0.08f, doorway.y1 - 0.08f};
   canvas.fill(light, matt(glm::vec3(0.02f), -0.16f));
   paint_glass(canvas, light, random);
@@ -58,7 +58,7 @@ WindowStyle street_window(float width_m, int panes_across) {
   WindowStyle style;
   style.width_m = width_m, style.height_m = 1.65f, style.foot_m = 0.82f;
   style.panes_across = panes_across, style.panes_up = 1, style.surround_m = 0.0f;
-  style.trim = linear_from_srgb8(0xB4, 0xAE, 0xA2), style.frame = white_paint();
+  style.trim = linear_from_srgb8(0xB4, 0xAE, 0xA2), style.frame = white_joinery();
   return style;
 }
 

@@ -6,14 +6,14 @@
 namespace parvis::dressing {
 namespace {
 
-constexpr const char* name = "OuterCeilingSurface";
-constexpr float cell_m = 8.0f;
-constexpr long max_cells = 10'000;  // no underside is so large
-constexpr float behind_m = 0.1f;    // of the wall: where its house is
-constexpr float same_height_m = 0.1f;
+constexpr const char* underside_name = "OuterCeilingSurface";
+constexpr float underside_cell_m = 8.0f;
+constexpr long max_underside_cells = 10'000;  // no underside is so large
+constexpr float behind_m = 0.1f;              // of the wall: where its house is
+constexpr float same_underside_m = 0.1f;
 constexpr int max_looked_at = 500;  // in one cell: maps that heap more on a place are wrong
 
-glm::ivec2 cell_of(glm::vec2 point) { return glm::ivec2(glm::floor(point / cell_m)); }
+glm::ivec2 cell_of(glm::vec2 point) { return glm::ivec2(glm::floor(point / underside_cell_m)); }
 
 std::uint64_t key(int x, int y) { return std::uint64_t(std::uint32_t(x)) << 32u | std::uint32_t(y); }
 
@@ -33,7 +33,7 @@ bool holds(const std::array<glm::vec3, 3>& triangle, glm::vec2 point) {
 Undersides::Undersides(const scene::Model& model) {
   const std::vector<glm::mat4> pose = scene::rest_pose(model);
   for (const scene::Part& part : model.parts) {
-    if (model.materials[std::size_t(part.material)].name != name) continue;
+    if (model.materials[std::size_t(part.material)].name != underside_name) continue;
     const glm::mat4& model_from_node = pose[std::size_t(part.node)];
     for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
       Triangle triangle;
@@ -48,7 +48,7 @@ Undersides::Undersides(const scene::Model& model) {
 void Undersides::add(const Triangle& triangle) {
   const glm::vec2 a(triangle[0]), b(triangle[1]), c(triangle[2]);
   const glm::ivec2 low = cell_of(glm::min(a, glm::min(b, c))), high = cell_of(glm::max(a, glm::max(b, c)));
-  if (long(high.x - low.x + 1) * long(high.y - low.y + 1) > max_cells) return;
+  if (long(high.x - low.x + 1) * long(high.y - low.y + 1) > max_underside_cells) return;
   for (int y = low.y; y <= high.y; ++y)
     for (int x = low.x; x <= high.x; ++x) cells_[key(x, y)].push_back(std::uint32_t(triangles_.size()));
   triangles_.push_back(triangle);
@@ -66,7 +66,7 @@ bool Undersides::begin_at(const WallPanel& panel) const {
     if (--left < 0) return false;
     const Triangle& triangle = triangles_[index];
     const bool is_at_foot = std::ranges::all_of(
-        triangle, [&](const glm::vec3& corner) { return std::abs(corner.z - foot_m) < same_height_m; });
+        triangle, [&](const glm::vec3& corner) { return std::abs(corner.z - foot_m) < same_underside_m; });
     if (is_at_foot && holds(triangle, at)) return true;
   }
   return false;

@@ -15,17 +15,17 @@ namespace parvis::dressing {
 namespace {
 
 constexpr float same_plane_m = 0.25f;
-constexpr long headings = 180;          // that count as different, around the circle
-constexpr float side_by_side_m = 0.3f;  // surfaces that overlap less are neighbours
-constexpr float narrow_m = 2.4f;        // a strip of wall that is no house: it belongs to its neighbour
-constexpr float step_m = 0.6f;          // of the top between two houses
-constexpr float foot_step_m = 1.0f;     // of the foot, where the wall stands on a lower roof
+constexpr long distinct_headings = 180;  // that count as different, around the circle
+constexpr float side_by_side_m = 0.3f;   // surfaces that overlap less are neighbours
+constexpr float narrow_m = 2.4f;         // a strip of wall that is no house: it belongs to its neighbour
+constexpr float max_top_step_m = 0.6f;   // of the top between two houses
+constexpr float foot_step_m = 1.0f;      // of the foot, where the wall stands on a lower roof
 constexpr float tiny_m = 0.02f;
 constexpr float party_gap_m = 1.2f, party_overlap_m = 0.3f;  // between walls of two houses
 constexpr float roof_foot_m = 2.2f;  // a wall whose foot is so far above others nearby stands on a roof
-constexpr float narrowest_m = 1.6f, lowest_m = 2.2f;  // of a wall with openings
-constexpr float thinnest_m = 2.4f;                    // diameter of a round tower with openings
-constexpr float before_wall_m = 0.6f;                 // an opening so near belongs to the wall
+constexpr float min_width_m = 1.6f, min_wall_m = 2.2f;  // of a wall with openings
+constexpr float thinnest_m = 2.4f;                      // diameter of a round tower with openings
+constexpr float before_wall_m = 0.6f;                   // an opening so near belongs to the wall
 constexpr float hash_cell_m = 6.0f;
 constexpr std::size_t max_panels = 4000;  // of one wall: triangles may cross all of them
 
@@ -66,9 +66,10 @@ std::vector<std::vector<Surface>> planes_of(const std::vector<ModelTriangle>& wa
     const ModelTriangle& first = walls[surface.triangles.front()];
     const float turn = std::atan2(normal.y, normal.x) / glm::two_pi<float>();  // -0.5 and 0.5 both face west
     surface.normal = normal;
-    const std::array<long, 3> plane{long(first.building),
-                                    (std::lround(turn * float(headings)) + headings) % headings,
-                                    std::lround(glm::dot(normal, first.corners[0]) / same_plane_m)};
+    const std::array<long, 3> plane{
+        long(first.building),
+        (std::lround(turn * float(distinct_headings)) + distinct_headings) % distinct_headings,
+        std::lround(glm::dot(normal, first.corners[0]) / same_plane_m)};
     planes[{plane, first.kind}].push_back(std::move(surface));
   };
   for (auto& [id, surface] : surfaces) {
@@ -99,7 +100,8 @@ std::vector<Surface> joined(std::vector<Surface> plane, const std::vector<ModelT
       Surface& last = result.back();
       const float overlap_m = std::min(last.high, surface.high) - surface.low;
       const bool is_strip = std::min(last.high - last.low, surface.high - surface.low) < narrow_m &&
-                            std::abs(last.top_m - surface.top_m) < 0.5f * step_m && overlap_m > -0.05f;
+                            std::abs(last.top_m - surface.top_m) < 0.5f * max_top_step_m &&
+                            overlap_m > -0.05f;
       if (overlap_m > std::min(side_by_side_m, 0.5f * (surface.high - surface.low)) || is_strip) {
         last.triangles.insert(last.triangles.end(), surface.triangles.begin(), surface.triangles.end());
         last.high = std::max(last.high, surface.high), last.top_m = std::max(last.top_m, surface.top_m);
@@ -198,9 +200,9 @@ void add_panels(Surface surface, const std::vector<ModelTriangle>& walls, std::v
       if (left.is_empty()) left = right;  // a gap between surfaces
       if (right.is_empty()) right = left;
       if (left.is_empty()) continue;
-      const bool is_step =
-          has_steps && !before.is_empty() &&
-          (std::abs(left.high - before.high) > step_m || std::abs(left.low - before.low) > foot_step_m);
+      const bool is_step = has_steps && !before.is_empty() &&
+                           (std::abs(left.high - before.high) > max_top_step_m ||
+                            std::abs(left.low - before.low) > foot_step_m);
       if (is_step) panels.back().high.x = places[i], begin(places[i]);
       WallPanel& panel = panels.back();
       for (const Span& span : {left, right}) {
@@ -337,8 +339,8 @@ void find_party_walls(std::vector<WallPanel>& panels) {
 }  // namespace
 
 bool is_large(const WallPanel& panel) {
-  const float needed_m = panel.run.is_ring ? glm::pi<float>() * thinnest_m : narrowest_m;
-  return panel.run.length_m >= needed_m && panel.eaves_m - panel.low.y >= lowest_m;
+  const float needed_m = panel.run.is_ring ? glm::pi<float>() * thinnest_m : min_width_m;
+  return panel.run.length_m >= needed_m && panel.eaves_m - panel.low.y >= min_wall_m;
 }
 
 std::vector<WallPanel> wall_panels(const std::vector<ModelTriangle>& walls,

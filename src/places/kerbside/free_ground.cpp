@@ -16,8 +16,8 @@ namespace {
 using glm::vec2, glm::vec3;
 
 constexpr unsigned char lane_bit = 1, thing_bit = 2;
-constexpr float reach_m = 12.0f;  // beside a lane, of what is looked at
-constexpr float cell_m = 0.4f;
+constexpr float lane_reach_m = 12.0f;  // beside a lane, of what is looked at
+constexpr float free_cell_m = 0.4f;
 constexpr float low_m = 0.35f, high_m = 3.5f;
 constexpr float min_trunk_m = 0.15f;
 constexpr float ground_from_lane_m = 2.5f;  // up and down, at most: what GroundHeights knows
@@ -32,11 +32,11 @@ Bounds bounds_of(const scene::RoadGraph& roads) {
 
 scene::GroundGrid grid_of(const scene::RoadGraph& roads, const Bounds& area) {
   const Bounds lanes = bounds_of(roads);
-  const vec2 origin = glm::max(vec2(lanes.min) - reach_m, vec2(area.min)),
-             end = glm::min(vec2(lanes.max) + reach_m, vec2(area.max));
+  const vec2 origin = glm::max(vec2(lanes.min) - lane_reach_m, vec2(area.min)),
+             end = glm::min(vec2(lanes.max) + lane_reach_m, vec2(area.max));
   if (lanes.empty() || !glm::all(glm::lessThan(origin, end))) return {};
-  const glm::ivec2 cells(glm::ceil((end - origin) / cell_m));
-  return {cells.x, cells.y, cell_m, origin};
+  const glm::ivec2 cells(glm::ceil((end - origin) / free_cell_m));
+  return {cells.x, cells.y, free_cell_m, origin};
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ std::uint64_t FreeGround::bytes(const scene::RoadGraph& roads, const Bounds& are
 }
 
 FreeGround::FreeGround(const scene::Scene& scene, const Bounds& area)
-    : heights_(scene, reach_m), taken_(grid_of(scene.roads, area), 0) {
+    : heights_(scene, lane_reach_m), taken_(grid_of(scene.roads, area), 0) {
   const Bounds lanes = bounds_of(scene.roads);
   lowest_m_ = lanes.min.z - ground_from_lane_m + low_m;
   highest_m_ = lanes.max.z + ground_from_lane_m + high_m;

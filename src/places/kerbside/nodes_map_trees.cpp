@@ -26,7 +26,7 @@ namespace {
 using namespace scene::attribute;
 
 constexpr float height_step_m = 2.0f;  // plants within one step share their shape, scaled
-constexpr int shapes = 2;              // of each kind and height
+constexpr int shapes_per_kind = 2;     // of each kind and height
 
 /// A model without its trees, and these. Null: it has none.
 struct TakenTrees {
@@ -111,7 +111,7 @@ void plant_trees(const PlannedTrees& planned, const std::vector<MapTree>& trees,
     const float height_m = std::max(tree.height_m, recipe.kind->min_height_m);  // flat trees have none
     recipe.height_m = std::clamp(height_step_m * std::round(height_m / height_step_m),
                                  recipe.kind->min_height_m, recipe.kind->max_height_m);
-    recipe.seed = planned.seed + std::uint64_t(random.index(shapes));
+    recipe.seed = planned.seed + std::uint64_t(random.index(shapes_per_kind));
     auto shape = vegetation::shared_plant(builder.scene.data<vegetation::PlantShelf>(), recipe);
     if (!shape) return builder.fail(shape.errors(), planned.where_of);
     const glm::mat4 placed = glm::rotate(glm::translate(world_from_model, tree.foot),

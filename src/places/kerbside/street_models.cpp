@@ -21,7 +21,7 @@ constexpr int tree_shapes = 5;
 constexpr float car_error_m = 0.006f, car_crease_deg = 45.0f;
 constexpr int car_wheel_segments = 16;
 constexpr std::size_t cars_per_body = 20;  // in a short street they differ by their paint alone
-constexpr float whole = 10.0f;             // of panels: one square
+constexpr float panel_m = 10.0f;           // of panels: one square
 
 scene::Material material(const char* name, vec3 colour, float roughness) {
   scene::Material result;
@@ -45,11 +45,11 @@ scene::Model make_bench() {
   Mesh slats, frames;
   for (int i = 0; i < 4; ++i) {
     const float y = -0.24f + 0.12f * float(i);
-    append(slats, panelled_box({-half_m, y, 0.43f}, {half_m, y + 0.095f, 0.465f}, whole));
+    append(slats, panelled_box({-half_m, y, 0.43f}, {half_m, y + 0.095f, 0.465f}, panel_m));
   }
   for (int i = 0; i < 3; ++i) {
     const float z = 0.55f + 0.13f * float(i), y = 0.26f + 0.04f * float(i);
-    append(slats, panelled_box({-half_m, y, z}, {half_m, y + 0.03f, z + 0.095f}, whole));
+    append(slats, panelled_box({-half_m, y, z}, {half_m, y + 0.03f, z + 0.095f}, panel_m));
   }
   for (const float x : {-0.68f, 0.68f}) {
     append(frames, tube({{{x, -0.24f, 0.0f}, 0.03f}, {{x, -0.2f, 0.42f}, 0.025f}}));

@@ -13,12 +13,13 @@ using city::Outline, city::smooth, city::turned, city::tube, city::panel, city::
 
 using enum KitchenMaterial;
 
-constexpr int sides = 36, parts = 4;
+constexpr int crockery_sides = 36, crockery_parts = 4;
 
 void add_turned(scene::Model& model, const char* name, const Outline& outline, KitchenMaterial material,
                 glm::vec3 foot) {
   Mesh mesh;
-  append(mesh, turned(smooth(outline, parts), sides), glm::translate(glm::mat4(1.0f), foot));
+  append(mesh, turned(smooth(outline, crockery_parts), crockery_sides),
+         glm::translate(glm::mat4(1.0f), foot));
   add_part(model, name, std::move(mesh), material);
 }
 

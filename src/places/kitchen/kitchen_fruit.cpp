@@ -13,7 +13,7 @@ using city::Outline, city::smooth, city::turned, city::tube;
 
 using enum KitchenMaterial;
 
-constexpr int sides = 32, parts = 5;
+constexpr int fruit_sides = 32, fruit_parts = 5;
 
 /// A fruit of this outline (from the foot up) at a place, its axis tilted.
 void add_round(scene::Model& model, const char* name, const Outline& outline, KitchenMaterial skin,
@@ -21,7 +21,7 @@ void add_round(scene::Model& model, const char* name, const Outline& outline, Ki
   const glm::mat4 world =
       glm::rotate(glm::rotate(glm::translate(glm::mat4(1.0f), at), heading, {0, 0, 1}), tilt, {1, 0, 0});
   Mesh mesh;
-  append(mesh, turned(smooth(outline, parts), sides), world);
+  append(mesh, turned(smooth(outline, fruit_parts), fruit_sides), world);
   add_part(model, name, std::move(mesh), skin);
   if (skin != apple && skin != pear) return;
   const float top = outline.back().y;
@@ -75,7 +75,7 @@ void add_fruit(scene::Model& model) {
   const Outline dish{{0.045f, 0.0f},   {0.05f, 0.012f}, {0.09f, 0.03f},  {0.125f, 0.06f}, {0.132f, 0.066f},
                      {0.124f, 0.064f}, {0.09f, 0.038f}, {0.05f, 0.022f}, {0.0f, 0.018f}};
   Mesh bowl;
-  append(bowl, turned(smooth(dish, parts), 48), glm::translate(glm::mat4(1.0f), foot));
+  append(bowl, turned(smooth(dish, fruit_parts), 48), glm::translate(glm::mat4(1.0f), foot));
   add_part(model, "fruit bowl", std::move(bowl), blue);
   add_shade(model, foot, 0.13f);
   const auto at = [&](float x, float y, float z) { return foot + glm::vec3(x, y, z); };

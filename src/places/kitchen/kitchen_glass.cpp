@@ -10,7 +10,7 @@ namespace {
 
 using city::Outline, city::turned;
 
-constexpr int rings = 48, sides = 96;  // the ray tracer follows the facets
+constexpr int glass_rings = 48, glass_sides = 96;  // the ray tracer follows the facets
 
 /// An ellipsoid that stands on the origin.
 scene::Model glass_body(const char* name, glm::vec3 radii, glm::vec3 absorption_per_m) {
@@ -21,13 +21,13 @@ scene::Model glass_body(const char* name, glm::vec3 radii, glm::vec3 absorption_
   glass.absorption_per_m = absorption_per_m, glass.is_mirror_like = true;
   model.materials = {glass};
   Outline outline;
-  for (int i = 0; i <= rings; ++i) {
-    const float turn = 3.14159265f * float(i) / float(rings);
+  for (int i = 0; i <= glass_rings; ++i) {
+    const float turn = 3.14159265f * float(i) / float(glass_rings);
     outline.emplace_back(std::sin(turn), -std::cos(turn));
   }
   scene::Part part;
   part.object = name;
-  part.mesh = turned(outline, sides);
+  part.mesh = turned(outline, glass_sides);
   for (std::size_t i = 0; i < part.mesh.positions.size(); ++i) {
     const glm::vec3 on_ball = glm::normalize(part.mesh.positions[i]);
     part.mesh.positions[i] = radii * on_ball + glm::vec3(0, 0, radii.z);

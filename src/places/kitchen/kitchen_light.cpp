@@ -9,9 +9,8 @@
 namespace parvis::kitchen {
 namespace {
 
-constexpr float pi = 3.14159265f;
 constexpr int view_px = 512;
-const glm::vec3 middle(0.0f, -1.1f, 1.35f);  // that the room's light is seen from
+const glm::vec3 room_middle(0.0f, -1.1f, 1.35f);  // that the room's light is seen from
 const glm::vec3 daylight(2.5f, 2.75f, 3.0f);
 
 struct Wall {
@@ -26,10 +25,10 @@ Wall met_wall(glm::vec3 direction) {
   int axis = 0;
   for (int i = 0; i < 3; ++i) {
     if (std::abs(direction[i]) < 1e-6f) continue;
-    const float distance = ((direction[i] > 0.0f ? high[i] : low[i]) - middle[i]) / direction[i];
+    const float distance = ((direction[i] > 0.0f ? high[i] : low[i]) - room_middle[i]) / direction[i];
     if (distance < nearest) nearest = distance, axis = i;
   }
-  return {middle + nearest * direction, axis};
+  return {room_middle + nearest * direction, axis};
 }
 
 float softly_within(float at, float low, float high) {
@@ -60,8 +59,8 @@ ImageF room_light_picture(int width_px) {
   ImageF picture(width_px, width_px / 2, 3);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < width_px; ++x) {
-      const float polar = (float(y) + 0.5f) / float(picture.height) * pi;
-      const float azimuth = ((float(x) + 0.5f) / float(width_px) - 0.5f) * 2.0f * pi;
+      const float polar = (float(y) + 0.5f) / float(picture.height) * glm::pi<float>();
+      const float azimuth = ((float(x) + 0.5f) / float(width_px) - 0.5f) * 2.0f * glm::pi<float>();
       const glm::vec3 direction(std::sin(polar) * std::sin(azimuth), std::sin(polar) * std::cos(azimuth),
                                 std::cos(polar));
       const glm::vec3 radiance = radiance_from(direction);

@@ -12,7 +12,7 @@ namespace {
 
 using city::Outline, city::smooth, city::turned, city::tube;
 
-constexpr int sides = 64, parts = 6;
+constexpr int mirror_sides = 64, mirror_parts = 6;
 enum Surface : int { polished, black, clear, brushed };
 
 std::vector<scene::Material> materials() {
@@ -45,7 +45,7 @@ void add(scene::Model& model, const char* name, const Mesh& mesh, Surface surfac
 }
 
 void add_turned(scene::Model& model, const char* name, const Outline& outline, Surface surface = polished) {
-  add(model, name, turned(smooth(outline, parts), sides), surface);
+  add(model, name, turned(smooth(outline, mirror_parts), mirror_sides), surface);
 }
 
 /// A bar that leaves a pan's wall and rises a little.
@@ -73,14 +73,15 @@ scene::Model kettle() {
               {0.0f, 0.16f}});
   add(model, "knob",
       turned(smooth({{0.004f, 0.158f}, {0.006f, 0.166f}, {0.014f, 0.174f}, {0.012f, 0.184f}, {0.0f, 0.188f}},
-                    parts),
+                    mirror_parts),
              24),
       black);
   // The spout: a cone that bulges a little.
   const glm::mat4 aslant =
       glm::rotate(glm::translate(glm::mat4(1.0f), {-0.082f, 0.0f, 0.07f}), -0.85f, {0, 1, 0});
   add(model, "spout",
-      turned(smooth({{0.026f, 0.0f}, {0.0215f, 0.03f}, {0.0165f, 0.06f}, {0.0125f, 0.084f}}, parts), 40),
+      turned(smooth({{0.026f, 0.0f}, {0.0215f, 0.03f}, {0.0165f, 0.06f}, {0.0125f, 0.084f}}, mirror_parts),
+             40),
       polished, aslant);
   add(model, "spout inside", turned({{0.0122f, 0.084f}, {0.009f, 0.06f}, {0.0f, 0.058f}}, 24), black, aslant);
   std::vector<city::TubeRing> rings;
@@ -134,7 +135,7 @@ scene::Model saucepan(const char* name, float radius, float height, bool has_lid
                        {0.017f, height + 0.054f},
                        {0.014f, height + 0.063f},
                        {0.0f, height + 0.066f}},
-                      parts),
+                      mirror_parts),
                24),
         black);
   } else {

@@ -16,7 +16,7 @@ using enum KitchenMaterial;
 
 // Mirrors show corners exactly and what lies between them straight: the nearer the finer.
 constexpr float nearest_cell_m = 0.015f, near_cell_m = 0.03f, cell_m = 0.06f, far_cell_m = 0.15f;
-constexpr float east = room_east_m, west = -room_east_m, south = room_south_m, top = room_height_m;
+constexpr float east = room_east_m, west = -room_east_m, south = room_south_m, ceiling_m = room_height_m;
 constexpr float worktop_front_m = -worktop_m[1];
 constexpr float wall_m = 0.16f;  // thick
 
@@ -31,18 +31,20 @@ void add_window_wall(scene::Model& model, const char* name, float x, float beyon
     add_part(model, name, panel({x, from_y, foot}, {0, to_y - from_y, 0}, {0, 0, head - foot}, cell),
              plaster);
   };
-  piece(south - beyond, window_south_m, 0, top + beyond);
-  piece(window_north_m, beyond, 0, top + beyond);
+  piece(south - beyond, window_south_m, 0, ceiling_m + beyond);
+  piece(window_north_m, beyond, 0, ceiling_m + beyond);
   piece(window_south_m, window_north_m, 0, window_foot_m);
-  piece(window_south_m, window_north_m, window_top_m, top + beyond);
+  piece(window_south_m, window_north_m, window_top_m, ceiling_m + beyond);
 }
 
 void add_shell(scene::Model& model) {
   add_part(model, "floor", panel({west, south, 0}, {east - west, 0, 0}, {0, -south, 0}, far_cell_m), floor);
-  add_part(model, "ceiling", panel({west, 0, top}, {east - west, 0, 0}, {0, south, 0}, far_cell_m), ceiling);
-  add_part(model, "north wall", panel({west, 0, 0}, {east - west, 0, 0}, {0, 0, top}, far_cell_m), plaster);
-  add_part(model, "east wall", panel({east, 0, 0}, {0, south, 0}, {0, 0, top}, far_cell_m), plaster);
-  add_part(model, "south wall", panel({east, south, 0}, {west - east, 0, 0}, {0, 0, top}, far_cell_m),
+  add_part(model, "ceiling", panel({west, 0, ceiling_m}, {east - west, 0, 0}, {0, south, 0}, far_cell_m),
+           ceiling);
+  add_part(model, "north wall", panel({west, 0, 0}, {east - west, 0, 0}, {0, 0, ceiling_m}, far_cell_m),
+           plaster);
+  add_part(model, "east wall", panel({east, 0, 0}, {0, south, 0}, {0, 0, ceiling_m}, far_cell_m), plaster);
+  add_part(model, "south wall", panel({east, south, 0}, {west - east, 0, 0}, {0, 0, ceiling_m}, far_cell_m),
            plaster);
   add_window_wall(model, "west wall", west, 0.0f, far_cell_m);
   add_part(model, "tiled wall",
@@ -52,7 +54,8 @@ void add_shell(scene::Model& model) {
 
 /// Walls and roof as the sun sees them: shadow maps let light in where a room's panels alone meet.
 void add_outside(scene::Model& model) {
-  constexpr float w = west - wall_m, e = east + wall_m, s = south - wall_m, n = wall_m, t = top + wall_m;
+  constexpr float w = west - wall_m, e = east + wall_m, s = south - wall_m, n = wall_m,
+                  t = ceiling_m + wall_m;
   constexpr float cell = 2.0f * far_cell_m;
   add_part(model, "roof", panel({w, s, t}, {e - w, 0, 0}, {0, n - s, 0}, cell), plaster);
   add_part(model, "south face", panel({w, s, 0}, {e - w, 0, 0}, {0, 0, t}, cell), plaster);

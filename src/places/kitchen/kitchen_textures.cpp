@@ -13,7 +13,6 @@ namespace {
 using city::fractal_noise, city::lattice_value, city::nearest_cell, city::Cell, city::Texel,
     city::SurfacePictures, city::SurfaceCanvas;
 
-constexpr float pi = 3.14159265f;
 constexpr float tile_m = 0.1f, joint_m = 0.0022f;
 
 float grain(const SurfaceCanvas& canvas, float x, float y, glm::vec2 size_m, int octaves,
@@ -111,7 +110,8 @@ SurfacePictures wood_pictures(std::uint32_t seed) {
   SurfaceCanvas canvas(1024, 1024, wood_sheet_m, wood_sheet_m);
   canvas.paint_all([&](float x, float y, Texel& t) {
     const float wave = grain(canvas, x, y, {0.3f, 0.06f}, 3, seed);
-    const float ring = 0.5f + 0.5f * std::sin(2.0f * pi * (10.0f * y / wood_sheet_m + 3.0f * wave));
+    const float ring =
+        0.5f + 0.5f * std::sin(2.0f * glm::pi<float>() * (10.0f * y / wood_sheet_m + 3.0f * wave));
     const float pore = grain(canvas, x, y, {0.04f, 0.002f}, 3, seed + 1);
     t.colour = glm::mix(linear_from_srgb8(0xA8, 0x76, 0x48), linear_from_srgb8(0xC8, 0x9A, 0x66), ring) *
                (1.0f + 0.45f * pore);
@@ -126,7 +126,8 @@ SurfacePictures cloth_pictures(std::uint32_t seed) {
   const glm::vec3 white = linear_from_srgb8(0xE6, 0xE0, 0xD4), red = linear_from_srgb8(0xB0, 0x28, 0x2A);
   canvas.paint_all([&](float x, float y, Texel& t) {
     const auto stripe = [](float at) { return std::fmod(at, 0.03f) < 0.015f ? 0.5f : 0.0f; };
-    const float weave = std::sin(2.0f * pi * x / 0.0015f) * std::sin(2.0f * pi * y / 0.0015f);
+    const float weave =
+        std::sin(2.0f * glm::pi<float>() * x / 0.0015f) * std::sin(2.0f * glm::pi<float>() * y / 0.0015f);
     t.colour = glm::mix(white, red, stripe(x) + stripe(y)) * (1.0f + 0.08f * weave) *
                (1.0f + 0.2f * grain(canvas, x, y, glm::vec2(0.06f), 3, seed));
     t.height_m = 0.0002f * weave;

@@ -14,7 +14,8 @@
 namespace parvis::city {
 namespace {
 
-constexpr int rubber = int(CarSurface::count), alloy = rubber + 1, plate = rubber + 2, shadow = rubber + 3;
+constexpr int rubber = int(CarSurface::count), alloy = rubber + 1, number_plate = rubber + 2,
+              shadow = rubber + 3;
 
 scene::Material material(const char* name, glm::vec3 colour, float metallic, float roughness) {
   scene::Material m;
@@ -76,7 +77,7 @@ std::vector<scene::Material> car_materials(const CarPaint& paint) {
       material("plate", glm::vec3(1.0f), 0.0f, 0.4f),
       material("contact_shadow", glm::vec3(0.0f), 0.0f, 1.0f)};
   materials[std::size_t(CarSurface::chrome)].is_mirror_like = true;
-  materials[plate].base_colour_texture = 0;
+  materials[number_plate].base_colour_texture = 0;
   scene::Material& below = materials[shadow];
   below.base_colour_texture = 1, below.alpha_mode = scene::Alpha::blend;
   return materials;
@@ -126,9 +127,9 @@ Mesh rectangle(glm::vec3 corner, glm::vec3 right, glm::vec3 up) {
 void add_plates(scene::Model& model, const CarShape& shape, const Bounds& box) {
   const float width = 0.52f, height = 0.11f, z = shape.plate_height, proud = 0.012f;
   add_part(model, "plate_front",
-           rectangle({box.max.x + proud, -0.5f * width, z}, {0, width, 0}, {0, 0, height}), plate);
+           rectangle({box.max.x + proud, -0.5f * width, z}, {0, width, 0}, {0, 0, height}), number_plate);
   add_part(model, "plate_rear",
-           rectangle({box.min.x - proud, 0.5f * width, z}, {0, -width, 0}, {0, 0, height}), plate);
+           rectangle({box.min.x - proud, 0.5f * width, z}, {0, -width, 0}, {0, 0, height}), number_plate);
 }
 
 void add_shadow(scene::Model& model, const Bounds& box) {

@@ -8,7 +8,7 @@
 namespace parvis::city {
 namespace {
 
-constexpr int rows = 9;
+constexpr int body_rows = 9;
 constexpr float fixed_row =
     3.4f;  // above it grid lines follow the net; below they spread over what the arches leave
 constexpr int arch_pieces = 14;  // of the half circle over a wheel
@@ -200,7 +200,7 @@ SplineSurface body_surface(const CarShape& shape) {
     const std::vector<glm::vec3> column = section_points(section);
     points.insert(points.end(), column.begin(), column.end());
   }
-  return SplineSurface(int(shape.sections.size()), rows, std::move(points));
+  return SplineSurface(int(shape.sections.size()), body_rows, std::move(points));
 }
 
 CarMeshes body_meshes(const CarShape& shape) { return BodyMesher(shape).meshes(); }

@@ -18,7 +18,7 @@ constexpr float path_m = 0.9f;
 enum class PlotKind { lawn, paved, gravel, beds };
 
 /// Where a point lies in its plot: rows of plots are shifted against those beside them.
-struct Plot {
+struct GardenPlot {
   float x = 0.0f, y = 0.0f;  ///< metres from its south-west corner
   float to_border_m = 0.0f;
   float identity = 0.0f, second_identity = 0.0f;
@@ -30,11 +30,11 @@ struct Plot {
   }
 };
 
-Plot plot_at(float x, float y, std::uint32_t seed) {
+GardenPlot plot_at(float x, float y, std::uint32_t seed) {
   const int column = int(std::floor(x / plot_m)) % plots_per_side;
   const float shifted = y + plot_m * lattice_value(column, 0, seed);
   const int row = int(std::floor(shifted / plot_m)) % plots_per_side;
-  Plot plot;
+  GardenPlot plot;
   plot.x = std::fmod(x, plot_m), plot.y = std::fmod(shifted, plot_m);
   plot.to_border_m = std::min(std::min(plot.x, plot_m - plot.x), std::min(plot.y, plot_m - plot.y));
   plot.identity = lattice_value(column, row, seed + 1);
@@ -75,7 +75,7 @@ Texel bed(float along, const Wear& wear) {
   return matt((is_row ? leaves : earth) * (0.55f + 0.7f * wear.grain), is_row ? 0.25f : 0.0f, 0.95f);
 }
 
-Texel ground_of(const Plot& plot, const Wear& wear) {
+Texel ground_of(const GardenPlot& plot, const Wear& wear) {
   switch (plot.kind()) {
     case PlotKind::paved:
       return slabs(plot.x, plot.y, 0.6f, wear);
@@ -102,7 +102,7 @@ Texel leaves(float height, float height_m, float leaf, float tone) {
   return texel;
 }
 
-void paint_plants(const Plot& plot, float leaf, const Cell& shrub, Texel& texel) {
+void paint_plants(const GardenPlot& plot, float leaf, const Cell& shrub, Texel& texel) {
   const bool has_tree = plot.second_identity > 0.62f && plot.kind() != PlotKind::beds;
   const glm::vec2 trunk(plot_m * (0.35f + 0.3f * plot.identity), plot_m * 0.62f);
   const float radius = 1.9f + 1.3f * plot.second_identity;
@@ -120,7 +120,7 @@ void paint_plants(const Plot& plot, float leaf, const Cell& shrub, Texel& texel)
   }
 }
 
-void paint_border(const Plot& plot, float leaf, const Wear& wear, Texel& texel) {
+void paint_border(const GardenPlot& plot, float leaf, const Wear& wear, Texel& texel) {
   const bool is_hedge = plot.second_identity < 0.4f;
   const float half_m = is_hedge ? 0.45f : 0.14f;
   if (plot.to_border_m > half_m) {
@@ -137,7 +137,7 @@ SurfacePictures courtyard_pictures(std::uint32_t seed) {
   SurfaceCanvas canvas(1536, 1536, courtyard_sheet_m, courtyard_sheet_m);
   canvas.paint_all([&](float x, float y, Texel& texel) {
     const glm::vec2 p = glm::vec2(x, y) / courtyard_sheet_m;
-    const Plot plot = plot_at(x, y, seed);
+    const GardenPlot plot = plot_at(x, y, seed);
     const Wear wear{fractal_noise(p * 480.0f, {480, 480}, 1, seed + 3),
                     fractal_noise(p * 14.0f, {14, 14}, 3, seed + 4)};
     const float leaf = fractal_noise(p * 180.0f, {180, 180}, 3, seed + 5);

@@ -5,7 +5,7 @@
 namespace parvis::city {
 namespace {
 
-constexpr int sheet_px = 1024;
+constexpr int facade_sheet_px = 1024;
 
 std::array<FacadeStyle, facade_style_count> make_styles() {
   const glm::vec3 cream = linear_from_srgb8(0xEA, 0xDF, 0xC8), stone = linear_from_srgb8(0xCB, 0xBF, 0xA8);
@@ -93,7 +93,7 @@ const std::array<FacadeStyle, facade_style_count>& facade_styles() {
 
 SurfaceCanvas facade_canvas(const FacadeStyle& style, std::uint32_t seed) {
   Random random(seed);
-  SurfaceCanvas canvas(sheet_px, sheet_px, facade_bay_m * float(facade_bays),
+  SurfaceCanvas canvas(facade_sheet_px, facade_sheet_px, facade_bay_m * float(facade_bays),
                        facade_floor_m * float(facade_floors));
   paint_wall(canvas, style.wall, style.wall_colour, random.next());
   if (style.has_quoined_piers) paint_piers(canvas, style.window.trim);

@@ -8,7 +8,6 @@
 namespace parvis::city {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
 constexpr int body_rings = 96, body_sides = 64, fin_rings = 24, fin_sides = 32;
 
 /// A closed section of a body: an ellipse with these half axes, whose cross product points back to the
@@ -23,7 +22,7 @@ Mesh skin(int rings, int sides, const std::function<Section(float)>& section) {
   for (int ring = 0; ring <= rings; ++ring) {
     const Section at = section(float(ring) / float(rings));
     for (int side = 0; side < sides; ++side) {
-      const float turn = 2.0f * pi * float(side) / float(sides);
+      const float turn = 2.0f * glm::pi<float>() * float(side) / float(sides);
       mesh.positions.push_back(at.centre + std::cos(turn) * at.across + std::sin(turn) * at.up);
       mesh.uvs.emplace_back(0.0f);
     }
@@ -42,7 +41,7 @@ Mesh skin(int rings, int sides, const std::function<Section(float)>& section) {
 struct TrunkSection {
   float x, z, half_width, half_height;
 };
-constexpr TrunkSection trunk[]{
+constexpr TrunkSection trunk_sections[]{
     {6.10f, -0.10f, 0.0f, 0.0f},   {5.95f, -0.08f, 0.55f, 0.40f}, {5.40f, -0.02f, 1.00f, 0.80f},
     {4.40f, 0.05f, 1.38f, 1.15f},  {3.20f, 0.10f, 1.62f, 1.38f},  {1.80f, 0.10f, 1.70f, 1.46f},
     {0.20f, 0.12f, 1.54f, 1.36f},  {-1.40f, 0.18f, 1.18f, 1.08f}, {-2.90f, 0.28f, 0.76f, 0.74f},
@@ -57,13 +56,13 @@ float through(float before, float from, float to, float after, float t) {  // Ca
 }
 
 Section trunk_section(float share) {
-  constexpr int last = int(std::size(trunk)) - 1;
+  constexpr int last = int(std::size(trunk_sections)) - 1;
   const float at = share * float(last);
   const int i = std::min(int(at), last - 1);
   const float t = at - float(i);
   const auto value = [&](float TrunkSection::*member) {
-    return through(trunk[std::max(i - 1, 0)].*member, trunk[i].*member, trunk[i + 1].*member,
-                   trunk[std::min(i + 2, last)].*member, t);
+    return through(trunk_sections[std::max(i - 1, 0)].*member, trunk_sections[i].*member,
+                   trunk_sections[i + 1].*member, trunk_sections[std::min(i + 2, last)].*member, t);
   };
   return {{value(&TrunkSection::x), 0.0f, value(&TrunkSection::z)},
           {0.0f, std::max(value(&TrunkSection::half_width), 0.0f), 0.0f},
@@ -98,7 +97,7 @@ scene::Model of_metal(const char* name, std::vector<Mesh> meshes) {
 
 scene::Model make_ball() {
   return of_metal("ball", {skin(body_rings, body_sides, [](float share) {
-                    const float polar = pi * share, radius = std::sin(polar);
+                    const float polar = glm::pi<float>() * share, radius = std::sin(polar);
                     return Section{{0.0f, 0.0f, std::cos(polar)}, {radius, 0.0f, 0.0f}, {0.0f, radius, 0.0f}};
                   })});
 }

@@ -125,7 +125,7 @@ void add_materials(scene::Model& model, std::uint64_t seed) {
 }
 
 /// A tapered tube about the z axis; flat sides would show against the sky.
-Mesh tube(float low, float high, float low_radius, float high_radius) {
+Mesh post_tube(float low, float high, float low_radius, float high_radius) {
   constexpr std::uint32_t sides = 10;
   Mesh mesh;
   for (std::uint32_t i = 0; i <= sides; ++i) {
@@ -215,13 +215,13 @@ scene::Model make_street_lamp() {
     part.object = name, part.mesh = mesh, part.material = material;
     model.parts.push_back(std::move(part));
   };
-  Mesh post = tube(0.0f, 0.5f, 0.14f, 0.11f);
-  append(post, tube(0.5f, 4.1f, 0.065f, 0.05f));
-  append(post, tube(4.1f, 4.2f, 0.05f, 0.13f));
-  append(post, tube(4.7f, 4.8f, 0.27f, 0.2f));
-  append(post, tube(4.8f, 5.05f, 0.2f, 0.02f));
+  Mesh post = post_tube(0.0f, 0.5f, 0.14f, 0.11f);
+  append(post, post_tube(0.5f, 4.1f, 0.065f, 0.05f));
+  append(post, post_tube(4.1f, 4.2f, 0.05f, 0.13f));
+  append(post, post_tube(4.7f, 4.8f, 0.27f, 0.2f));
+  append(post, post_tube(4.8f, 5.05f, 0.2f, 0.02f));
   add("post", post, 0);
-  add("lantern", tube(4.2f, 4.7f, 0.12f, 0.23f), 1);
+  add("lantern", post_tube(4.2f, 4.7f, 0.12f, 0.23f), 1);
   return model;
 }
 

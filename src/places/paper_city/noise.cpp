@@ -13,14 +13,9 @@ std::uint32_t mixed(std::uint32_t h) {
 
 float unit(std::uint32_t h) { return float(h >> 8) * 0x1p-24f; }
 
-int wrapped(int i, int period) {
-  const int r = i % period;
-  return r < 0 ? r + period : r;
-}
-
 float fade(float t) { return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f); }
 
-float lattice_value(int x, int y, int z, std::uint32_t seed) {
+float lattice_value_3d(int x, int y, int z, std::uint32_t seed) {
   return unit(
       mixed(mixed(mixed(std::uint32_t(x) + seed * 0x9e3779b9u) + std::uint32_t(y)) + std::uint32_t(z)));
 }
@@ -55,8 +50,9 @@ float noise(glm::vec3 p, std::uint32_t seed) {
   const int x = int(corner.x), y = int(corner.y), z = int(corner.z);
   const float tx = fade(p.x - corner.x), ty = fade(p.y - corner.y), tz = fade(p.z - corner.z);
   const auto layer = [&](int k) {
-    return glm::mix(glm::mix(lattice_value(x, y, k, seed), lattice_value(x + 1, y, k, seed), tx),
-                    glm::mix(lattice_value(x, y + 1, k, seed), lattice_value(x + 1, y + 1, k, seed), tx), ty);
+    return glm::mix(
+        glm::mix(lattice_value_3d(x, y, k, seed), lattice_value_3d(x + 1, y, k, seed), tx),
+        glm::mix(lattice_value_3d(x, y + 1, k, seed), lattice_value_3d(x + 1, y + 1, k, seed), tx), ty);
   };
   return glm::mix(layer(z), layer(z + 1), tz);
 }

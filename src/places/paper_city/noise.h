@@ -7,6 +7,12 @@
 
 namespace parvis::city {
 
+/// The remainder of a division, 0 to `period` - 1 for negative numbers, too.
+inline int wrapped(int i, int period) {
+  const int r = i % period;
+  return r < 0 ? r + period : r;
+}
+
 /// A pseudo-random number in [0, 1) for a lattice point.
 float lattice_value(int x, int y, std::uint32_t seed);
 

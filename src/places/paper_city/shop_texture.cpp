@@ -13,14 +13,14 @@
 namespace parvis::city {
 namespace {
 
-constexpr int sheet_px = 2048;
+constexpr int shop_sheet_px = 2048;
 
 struct Shop {
   std::string_view name;
   glm::vec3 srgb;  ///< of its woodwork, 0..255
   bool has_light_letters;
 };
-constexpr std::array<Shop, shop_modules * shop_strips> shops{{
+constexpr std::array<Shop, shop_modules * shop_strips> sheet_shops{{
     {"BOULANGERIE", {112, 62, 40}, true},
     {"CAFE", {36, 64, 52}, true},
     {"LIBRAIRIE", {40, 56, 92}, true},
@@ -187,14 +187,14 @@ void paint_shop_display(SurfaceCanvas& canvas, const Rect& glass, glm::vec3 tint
 }
 
 glm::vec2 ground_floor_strip(int strip) {
-  const float height = 1.0f / float(ground_floor_strips), half_pixel = 1.5f / float(sheet_px);
+  const float height = 1.0f / float(ground_floor_strips), half_pixel = 1.5f / float(shop_sheet_px);
   const float foot = 1.0f - height * float(strip);  // keeps the strips' colours apart in the first mipmaps
   return {foot - half_pixel, foot - height + half_pixel};
 }
 
 SurfaceCanvas ground_floor_canvas(std::uint32_t seed) {
   Random random(seed);
-  SurfaceCanvas canvas(sheet_px, sheet_px, shop_module_m * float(shop_modules),
+  SurfaceCanvas canvas(shop_sheet_px, shop_sheet_px, shop_module_m * float(shop_modules),
                        ground_floor_m * float(ground_floor_strips));
   const glm::vec3 stone = linear_from_srgb8(0xC4, 0xB8, 0xA0);
   paint_wall(canvas, Wall::ashlar, stone, random.next());
@@ -203,8 +203,8 @@ SurfaceCanvas ground_floor_canvas(std::uint32_t seed) {
     for (int module = 0; module < shop_modules; ++module) {
       const float x0 = shop_module_m * float(module);
       if (strip < shop_strips)
-        paint_shop_front(canvas, x0, foot, shops[std::size_t(strip) * shop_modules + std::size_t(module)],
-                         random);
+        paint_shop_front(canvas, x0, foot,
+                         sheet_shops[std::size_t(strip) * shop_modules + std::size_t(module)], random);
       else
         paint_house_module(canvas, x0, foot, module, stone * 1.05f, random);
     }

@@ -10,7 +10,6 @@
 namespace parvis::city {
 namespace {
 
-constexpr float pi = 3.14159265f;
 constexpr float cloud_base_m = 1400.0f;
 constexpr float haze_per_km =
     0.45f;  // somewhat more than over the city: what lies beyond must not stand out darker
@@ -71,14 +70,14 @@ Cloud clouds(glm::vec3 direction, glm::vec3 to_sun, std::uint32_t seed) {
 
 /// Height (as the sine of the elevation) of hills and of the distant town's roofs, by azimuth.
 float skyline(float azimuth, std::uint32_t seed) {
-  const float turn = azimuth / (2.0f * pi) + 0.5f;
+  const float turn = azimuth / (2.0f * glm::pi<float>()) + 0.5f;
   const float roofs =
       0.010f + 0.009f * std::floor(4.0f * noise(glm::vec2(turn * 260.0f, 0.5f), {260, 1}, seed)) / 4.0f;
   return roofs;
 }
 
 float hills(float azimuth, std::uint32_t seed) {
-  const float turn = azimuth / (2.0f * pi) + 0.5f;
+  const float turn = azimuth / (2.0f * glm::pi<float>()) + 0.5f;
   return 0.008f + 0.05f * std::pow(fractal_noise(glm::vec2(turn * 7.0f, 0.5f), {7, 1}, 5, seed), 1.5f);
 }
 
@@ -122,10 +121,10 @@ ImageF sky_picture(int width_px, glm::vec3 to_sun, std::uint64_t seed) {
   parallel_for(
       std::size_t(picture.height),
       [&](std::size_t row) {
-        const float polar = (float(row) + 0.5f) / float(picture.height) * pi;
+        const float polar = (float(row) + 0.5f) / float(picture.height) * glm::pi<float>();
         for (int x = 0; x < width_px; ++x) {
-          const float azimuth =
-              ((float(x) + 0.5f) / float(width_px) - 0.5f) * 2.0f * pi;  // from north, clockwise
+          const float azimuth = ((float(x) + 0.5f) / float(width_px) - 0.5f) * 2.0f *
+                                glm::pi<float>();  // from north, clockwise
           const glm::vec3 direction(std::sin(polar) * std::sin(azimuth), std::sin(polar) * std::cos(azimuth),
                                     std::cos(polar));
           const glm::vec3 radiance = radiance_from(direction, to_sun, std::uint32_t(seed * 2654435761u));

@@ -4,14 +4,10 @@
 #include <cmath>
 
 #include "base/colour.h"
+#include "places/paper_city/noise.h"
 
 namespace parvis::city {
 namespace {
-
-int wrapped(int i, int period) {
-  const int r = i % period;
-  return r < 0 ? r + period : r;
-}
 
 Texel mixed(const Texel& a, const Texel& b, float t) {
   Texel m;

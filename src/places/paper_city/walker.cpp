@@ -8,8 +8,7 @@
 namespace parvis::city {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
-constexpr int sides = 10;
+constexpr int limb_sides = 10;
 constexpr int keys = 16;  // of the animation, over one double step
 constexpr float hip_m = 0.92f, knee_m = 0.46f, shoulder_m = 1.42f;
 constexpr float thigh_swing = 0.42f, arm_swing = 0.5f;  // radians to either side
@@ -33,16 +32,16 @@ Mesh limb(std::initializer_list<Ring> rings) {
     mesh.uvs.emplace_back(0.0f);
   };
   for (const Ring& ring : rings)
-    for (int i = 0; i < sides; ++i) add(ring, 2.0f * pi * float(i) / sides, 1.0f);
+    for (int i = 0; i < limb_sides; ++i) add(ring, 2.0f * glm::pi<float>() * float(i) / limb_sides, 1.0f);
   const auto bottom = std::uint32_t(mesh.positions.size()), top = bottom + 1;
   add(*rings.begin(), 0.0f, 0.0f);
   add(*(rings.end() - 1), 0.0f, 0.0f);
-  const auto last = std::uint32_t((rings.size() - 1) * sides);
-  for (std::uint32_t i = 0; i < sides; ++i) {
-    const std::uint32_t next = (i + 1) % sides;
-    for (std::uint32_t ring = 0; ring < last; ring += sides)
-      mesh.indices.insert(mesh.indices.end(), {ring + i, ring + next, ring + sides + next, ring + i,
-                                               ring + sides + next, ring + sides + i});
+  const auto last = std::uint32_t((rings.size() - 1) * limb_sides);
+  for (std::uint32_t i = 0; i < limb_sides; ++i) {
+    const std::uint32_t next = (i + 1) % limb_sides;
+    for (std::uint32_t ring = 0; ring < last; ring += limb_sides)
+      mesh.indices.insert(mesh.indices.end(), {ring + i, ring + next, ring + limb_sides + next, ring + i,
+                                               ring + limb_sides + next, ring + limb_sides + i});
     mesh.indices.insert(mesh.indices.end(), {bottom, next, i, top, last + i, last + next});
   }
   fill_normals(mesh);
@@ -90,7 +89,7 @@ class Figure {
     made.property = property;
     for (int key = 0; key <= keys; ++key) {
       made.times_s.push_back(step_s * float(key) / keys);
-      made.values.push_back(value(2.0f * pi * float(key) / keys));
+      made.values.push_back(value(2.0f * glm::pi<float>() * float(key) / keys));
     }
     model_.animations.front().channels.push_back(std::move(made));
   }
@@ -165,9 +164,9 @@ scene::Model make_walker(const WalkerClothes& clothes) {
                {1.72f, 0.078f, 0.070f, -0.01f},
                {1.75f, 0.035f, 0.035f, -0.01f}});
   for (const float side : {1.0f, -1.0f}) {
-    const float phase = side > 0.0f ? 0.0f : pi;
+    const float phase = side > 0.0f ? 0.0f : glm::pi<float>();
     add_leg(figure, body, 0.09f * side, phase);
-    add_arm(figure, body, 0.235f * side, phase + pi);
+    add_arm(figure, body, 0.235f * side, phase + glm::pi<float>());
   }
   return figure.take();
 }

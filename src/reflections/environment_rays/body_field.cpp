@@ -35,8 +35,6 @@ struct Tracer {
     return (2.0f * byte / 255.0f - 1.0f) * field_reach_m(0.5f * body.box.size());
   }
 
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION
 #include "reflections/environment_rays/body_field.glsl"
 };
 

@@ -20,7 +20,7 @@ using namespace reference_maps;
 namespace {
 
 constexpr int face_resolution = 16;
-const std::vector<glm::vec3> places{{5, 0, 0}, {-5, 0, 0}, {0, 5, 0}};
+const std::vector<glm::vec3> map_places{{5, 0, 0}, {-5, 0, 0}, {0, 5, 0}};
 
 /// A room with a lamp in it that can be switched off.
 class MapRenewalTest : public gl::ContextTest {
@@ -42,7 +42,7 @@ TEST_F(MapRenewalTest, TheNearestMapsComeFirstAndAllShowWhatIsThereNow) {
       render::Renderer::create(scene_, {}, light::sun_and_sky);
   ASSERT_TRUE(renderer);
   (*renderer)->begin_frame(scene_, Camera{});
-  Result<ReferenceMaps> maps = ReferenceMaps::bake(**renderer, places, face_resolution);
+  Result<ReferenceMaps> maps = ReferenceMaps::bake(**renderer, map_places, face_resolution);
   Result<MapRenewal> renewal = MapRenewal::create(face_resolution);
   ASSERT_TRUE(maps && renewal);
   EXPECT_TRUE(renewal->is_done());
@@ -51,16 +51,16 @@ TEST_F(MapRenewalTest, TheNearestMapsComeFirstAndAllShowWhatIsThereNow) {
   const auto with_lamp = maps->read(0);
   scene_.objects[lamp_].is_visible = false;
   (*renderer)->begin_frame(scene_, Camera{});
-  renewal->ask(places.size());
+  renewal->ask(map_places.size());
   EXPECT_EQ(renewal->renew_one(**renderer, *maps, {-4, 1, 0}), 1u);
   EXPECT_EQ(maps->read(0), with_lamp) << "not its turn";
   EXPECT_EQ(renewal->renew_one(**renderer, *maps, {-4, 1, 0}), 2u);
   EXPECT_FALSE(renewal->is_done());
   EXPECT_EQ(renewal->renew_one(**renderer, *maps, {-4, 1, 0}), 0u);
   EXPECT_TRUE(renewal->is_done());
-  const Result<ReferenceMaps> fresh = ReferenceMaps::bake(**renderer, places, face_resolution);
+  const Result<ReferenceMaps> fresh = ReferenceMaps::bake(**renderer, map_places, face_resolution);
   ASSERT_TRUE(fresh);
-  for (std::size_t map = 0; map < places.size(); ++map) EXPECT_EQ(maps->read(map), fresh->read(map));
+  for (std::size_t map = 0; map < map_places.size(); ++map) EXPECT_EQ(maps->read(map), fresh->read(map));
   EXPECT_NE(maps->read(0), with_lamp);
 }
 
@@ -68,7 +68,7 @@ TEST_F(MapRenewalTest, AWindowDrawsAMapPerFrameAfterAChangeAndNoneElse) {
   render::add_mirror(scene_, {3, 0, 0}, 0.5f);
   methods::settings(scene_).method = "multiple_environment_maps";
   methods::settings(scene_).resolution = face_resolution;
-  map_plan(scene_).places = places;
+  map_plan(scene_).places = map_places;
   Result<std::unique_ptr<render::Renderer>> renderer =
       render::Renderer::create(scene_, {}, light::sun_and_sky);
   ASSERT_TRUE(renderer);
@@ -277,7 +277,7 @@ class MapTableTest : public gl::ContextTest {
  protected:
   MapTable table(std::size_t layers) {
     shading::Heightfield heights(Bounds{glm::vec3(-8, -8, 0), glm::vec3(8, 8, 1)}, 1.0f, 64);
-    return {MapChoice(places, HeightPyramid(heights)), places, layers};
+    return {MapChoice(map_places, HeightPyramid(heights)), map_places, layers};
   }
   /// The layers that the south-western cell looks into.
   static std::vector<std::uint16_t> first_cell(const MapTable& table) {

@@ -14,7 +14,7 @@
 namespace parvis::local_maps {
 namespace {
 
-constexpr int tile = 128;
+constexpr int tile_side = 128;
 
 glm::vec3 random_direction(Random& random) {
   glm::vec3 d(0.0f);
@@ -37,12 +37,12 @@ HeightPyramid street() {
 }
 
 FaceTask task_of(int face, MeshRule rule = {}) {
-  return {{0.3f, -0.2f, 1.0f}, face, tile, glm::vec2(0.0f), 0, rule};
+  return {{0.3f, -0.2f, 1.0f}, face, tile_side, glm::vec2(0.0f), 0, rule};
 }
 
 TEST(LocalMapFaces, AreThoseOfTheCubeMapsThatAreDrawn) {
   for (int face = 0; face < 6; ++face) {
-    const glm::mat4 clip_from_world = methods::face_view(face, glm::vec3(0.0f), tile, 0).clip_from_world;
+    const glm::mat4 clip_from_world = methods::face_view(face, glm::vec3(0.0f), tile_side, 0).clip_from_world;
     for (const glm::vec2 place : {glm::vec2(0.3f, -0.8f), glm::vec2(-0.6f, 0.1f), glm::vec2(0.99f, 0.98f)}) {
       const glm::vec3 direction = direction_on_face(place, face);
       const glm::vec4 clip = clip_from_world * glm::vec4(direction, 1.0f);
@@ -58,12 +58,12 @@ TEST(LocalMapFaces, ATexelShowsTheDirectionThatIsLookedUpThere) {
   Random random(1);
   for (int i = 0; i < 1000; ++i) {
     const glm::vec3 direction = random_direction(random);
-    const glm::vec2 texel = texel_on_tiles(direction, tile, local_map_border);
+    const glm::vec2 texel = texel_on_tiles(direction, tile_side, local_map_border);
     const int face = int(place_on_faces(direction).z);
-    const glm::vec2 in_tile = texel - tile_corner(face, tile);
+    const glm::vec2 in_tile = texel - tile_corner(face, tile_side);
     ASSERT_GE(std::min(in_tile.x, in_tile.y), float(local_map_border) - 1e-3f);
-    ASSERT_LE(std::max(in_tile.x, in_tile.y), float(tile - local_map_border) + 1e-3f);
-    const glm::vec3 shown = direction_on_face(place_of_texel(in_tile, tile, local_map_border), face);
+    ASSERT_LE(std::max(in_tile.x, in_tile.y), float(tile_side - local_map_border) + 1e-3f);
+    const glm::vec3 shown = direction_on_face(place_of_texel(in_tile, tile_side, local_map_border), face);
     ASSERT_LT(glm::distance(glm::normalize(shown), direction), 1e-4f);
   }
 }
@@ -107,7 +107,7 @@ TEST(LocalMapMesh, CoversEachTexelOnce) {
   for (int face = 0; face < 6; ++face)
     for (const float smallest : {1.0f, 3.0f, 100.0f}) {
       make_face_mesh(heights, task_of(face, {10, 0.2f, smallest}), mesh);
-      std::vector<int> covered(tile * tile);
+      std::vector<int> covered(tile_side * tile_side);
       double area = 0.0;
       for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         glm::dvec2 p[3];
@@ -122,13 +122,14 @@ TEST(LocalMapMesh, CoversEachTexelOnce) {
         for (int y = int(low.y); y < int(std::ceil(high.y)); ++y)
           for (int x = int(low.x); x < int(std::ceil(high.x)); ++x) {
             const glm::dvec2 middle(x + 0.5137, y + 0.5071);  // on no edge
-            covered[std::size_t(y * tile + x)] += edge(p[0], p[1], middle) > 0.0 &&
-                                                  edge(p[1], p[2], middle) > 0.0 &&
-                                                  edge(p[2], p[0], middle) > 0.0;
+            covered[std::size_t(y * tile_side + x)] += edge(p[0], p[1], middle) > 0.0 &&
+                                                       edge(p[1], p[2], middle) > 0.0 &&
+                                                       edge(p[2], p[0], middle) > 0.0;
           }
       }
-      EXPECT_NEAR(area, tile * tile, 0.01);
-      EXPECT_EQ(std::ranges::count(covered, 1), tile * tile) << "face " << face << ", quads of " << smallest;
+      EXPECT_NEAR(area, tile_side * tile_side, 0.01);
+      EXPECT_EQ(std::ranges::count(covered, 1), tile_side * tile_side)
+          << "face " << face << ", quads of " << smallest;
     }
 }
 
@@ -143,8 +144,8 @@ TEST(LocalMapMesh, HasNoCrack) {
     for (const auto& [side, count] : sides) {
       ASSERT_EQ(count, 1);
       const glm::vec2 a = mesh.vertices[side.first].texel, b = mesh.vertices[side.second].texel;
-      const bool is_at_rim = (a.x == b.x && (a.x == 0.0f || a.x == float(tile))) ||
-                             (a.y == b.y && (a.y == 0.0f || a.y == float(tile)));
+      const bool is_at_rim = (a.x == b.x && (a.x == 0.0f || a.x == float(tile_side))) ||
+                             (a.y == b.y && (a.y == 0.0f || a.y == float(tile_side)));
       ASSERT_EQ(sides.contains({side.second, side.first}), !is_at_rim);
     }
   }
@@ -179,7 +180,7 @@ TEST(LocalMapMesh, CornersLieWhereTheirRaysEnd) {
     const glm::vec3 from_centre = vertex.met - task_of(2).centre;
     EXPECT_NEAR(from_centre.y, vertex.ahead_m, 1e-4f * vertex.ahead_m) << "this face looks north";
     nearest_m = std::min(nearest_m, glm::length(from_centre));
-    const glm::vec2 place = place_of_texel(vertex.texel, tile, local_map_border);
+    const glm::vec2 place = place_of_texel(vertex.texel, tile_side, local_map_border);
     EXPECT_LT(glm::distance(from_centre / vertex.ahead_m, direction_on_face(place, 2)), 1e-3f);
     if (vertex.met.z < 4.0f && vertex.met.z > 0.5f) {
       EXPECT_NEAR(vertex.met.y, 6.0f, 1.0f) << "a wall";

@@ -11,7 +11,12 @@ namespace {
 
 constexpr int max_picture_texels = 8192;  // a side; what OpenGL 4.5 grants is 16384, what phones have is this
 
-enum Unit : GLuint { colours_unit = methods::first_method_unit, distances_unit, places_unit, finer_unit };
+enum PictureUnit : GLuint {
+  colours_unit = methods::first_method_unit,
+  distances_unit,
+  places_unit,
+  finer_unit
+};
 
 gl::VertexArray mesh_array() {
   gl::VertexArray array = gl::VertexArray::create();

@@ -9,9 +9,8 @@
 namespace parvis::local_maps {
 namespace {
 
-using namespace scene::attribute;
-
 scene::AttributeSchema show_attribute() {
+  using namespace scene::attribute;
   return choice("show",
                 "of local_environment_maps, to look into it: its mesh in red over the maps, or the weights "
                 "of the two reference maps in red and green, blue where neither sees what is mirrored",

@@ -6,8 +6,6 @@
 namespace parvis::methods {
 namespace {
 
-using namespace scene::attribute;
-
 using scene::AttributeSchema, scene::AttributeType;
 
 /// Which method a scene has that names none.
@@ -19,6 +17,7 @@ std::string automatic_help(const Registry& registry) {
 }
 
 std::vector<AttributeSchema> common_attributes(const Registry& registry) {
+  using namespace scene::attribute;
   std::vector<std::string> methods = registry.names();
   methods.insert(methods.begin(), automatic);
   return {

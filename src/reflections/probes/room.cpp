@@ -8,8 +8,6 @@
 namespace parvis::probes {
 namespace {
 
-using namespace scene::attribute;
-
 using Made = Result<std::unique_ptr<methods::Reflections>>;
 
 Made make_none(const scene::Scene& scene, render::Renderer&, std::unique_ptr<methods::Reflections>) {
@@ -27,6 +25,7 @@ Made make(const scene::Scene& scene, render::Renderer&, std::unique_ptr<methods:
 }  // namespace
 
 void furnish(House& house) {
+  using namespace scene::attribute;
   methods::Registry& registry = house.get<methods::Registry>();
   registry.add(
       {.name = "none", .help = "lights alone: mirrors show the mean light of the sky", .make = make_none});

@@ -6,7 +6,7 @@
 namespace parvis::probes {
 namespace {
 
-constexpr int forgotten_after = 120;  // frames unseen
+constexpr int cube_forgotten_after = 120;  // frames unseen
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void TimeSlicedCubeMap::update_maps(render::Renderer& renderer, const scene::Sce
     for (std::size_t i = 0; i < std::min(faces, waiting_.size()); ++i)
       update_levels(maps_.at(waiting_[i].object).map);
   }
-  std::erase_if(maps_, [](const auto& entry) { return entry.second.idle_frames > forgotten_after; });
+  std::erase_if(maps_, [](const auto& entry) { return entry.second.idle_frames > cube_forgotten_after; });
 }
 
 void TimeSlicedCubeMap::bind(const gl::Program& program, int object) {

@@ -15,8 +15,6 @@ struct Walker {
 
   float cell_height(ivec2 cell, int level) const { return *levels[std::size_t(level)].at(cell.x, cell.y); }
 
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION
 #include "reflections/reference_maps/heightfield_walk.glsl"
 
   static HeightfieldGrid grid_of(const HeightPyramid& pyramid) {

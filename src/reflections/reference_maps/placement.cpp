@@ -14,7 +14,7 @@
 namespace parvis::reference_maps {
 namespace {
 
-constexpr float height_m = 1.2f;            // of a map over the street: that of bodywork
+constexpr float map_height_m = 1.2f;        // of a map over the street: that of bodywork
 constexpr float candidates_apart_m = 4.0f;  // along a lane
 constexpr float alike_m = 2.0f;             // lanes cross and run side by side: one candidate is enough
 constexpr std::size_t candidates_per_map = 16, min_candidates = 1024;
@@ -44,7 +44,7 @@ std::vector<glm::vec3> candidate_places(const scene::Scene& scene, const HeightP
   float side_m = alike_m;
   candidates = thinned(candidates, side_m);
   while (candidates.size() > enough) candidates = thinned(candidates, side_m *= 1.25f);
-  for (glm::vec3& candidate : candidates) candidate.z += height_m;
+  for (glm::vec3& candidate : candidates) candidate.z += map_height_m;
   return candidates;
 }
 

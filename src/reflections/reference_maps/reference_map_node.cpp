@@ -8,11 +8,10 @@
 namespace parvis::reference_maps {
 namespace {
 
-using namespace scene::attribute;
-
 constexpr std::size_t max_places = 20000;
 
 scene::NodeSchema reference_maps_schema() {
+  using namespace scene::attribute;
   return {
       .type = "referenceMaps",
       .help =

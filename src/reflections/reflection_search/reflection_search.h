@@ -16,8 +16,6 @@ template <class Reflector>
 struct ReflectionSearch {
   const Reflector& reflector;
 
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION
 #include "reflections/reflection_search/surface_point.glsl"
   // Each needs those before it: lines between them keep clang-format from sorting.
 #include "reflections/reflection_search/reflection_point.glsl"
@@ -49,8 +47,5 @@ struct ReflectionSearch {
   /// Of a ReflectorMap.
   PatchKind patch_kind() const { return {reflector.is_convex, reflector.is_whole_body()}; }
 };
-
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION inline
 
 }  // namespace parvis::reflection_search

@@ -19,8 +19,6 @@ struct Pair {
   glm::vec3 second_place;
   int mirror = 0;
 
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION
 #include "reflections/reflection_search/surface_point.glsl"
   // Each needs those before it: lines between them keep clang-format from sorting.
 #include "reflections/reflection_search/reflection_point.glsl"
@@ -50,8 +48,6 @@ struct Pair {
   }
   SearchStart further_start(int i) { return search_start(i); }
   static MapWindow map_window() { return all_directions; }
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION inline
 };
 
 /// Where a ray hits an ellipsoid about the origin.

@@ -14,7 +14,6 @@ namespace {
 
 using Search = ReflectionSearch<ReflectorMap>;
 
-constexpr float pi = 3.14159265f;
 constexpr float middle_share = 0.3f;                  // of a band's breadth, in which searches begin
 constexpr int curvature_probes = 16, min_probes = 4;  // about a start
 constexpr float curvature_reach = 0.6f;               // of the distance to the next start
@@ -83,7 +82,8 @@ glm::vec3 curvature_around(const ReflectorMap& map, const Search::TangentPlane& 
   glm::dvec3 turned(0.0);
   int met = 0;
   for (int i = 0; i < curvature_probes; ++i) {
-    const float turn = 2.0f * pi * float(i) / curvature_probes, probe_distance = i % 2 ? reach : 0.5f * reach;
+    const float turn = 2.0f * glm::pi<float>() * float(i) / curvature_probes,
+                probe_distance = i % 2 ? reach : 0.5f * reach;
     const glm::vec2 off = probe_distance * glm::vec2(std::cos(turn), std::sin(turn));
     const MapPoint at = map.sample(search.on_tangent_plane(plane, off) - map.window.centre);
     if (at.kind == kind_closed) continue;

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr int version = 4;  // of how reflectors are made: raise it when old ones no longer serve
 constexpr SealedKind kind{"PARVISR3", "reflector"};
-constexpr std::size_t max_patches = 200;
+constexpr std::size_t max_cached_patches = 200;
 
 std::uint64_t key_of(const ReflectorSource& source) {
   ContentHash hash;
@@ -25,7 +25,7 @@ std::uint64_t key_of(const ReflectorSource& source) {
   hash.add(source.mesh.indices);
   hash.add_text(source.name);
   hash.add(source.side);
-  hash.add(max_patches);
+  hash.add(max_cached_patches);
   return hash.value();
 }
 
@@ -72,7 +72,7 @@ std::optional<Reflector> ReflectorCache::stored(const ReflectorSource& source) c
 
 Result<Reflector> ReflectorCache::reflector(const ReflectorSource& source) const {
   if (std::optional<Reflector> reflector = stored(source)) return *std::move(reflector);
-  return make_reflector(source.mesh, source.name, source.side, max_patches);
+  return make_reflector(source.mesh, source.name, source.side, max_cached_patches);
 }
 
 Status ReflectorCache::keep(const ReflectorSource& source, std::string_view bytes) const {
@@ -96,7 +96,7 @@ Result<BakedReflectors> bake_reflectors(const scene::Scene& scene, const machine
   work.uses_threads = false;  // each takes all cores
   work.run = [&](std::uint32_t i) -> Result<std::string> {
     const ReflectorSource& source = wanted[i].source;
-    const Result<Reflector> made = make_reflector(source.mesh, source.name, source.side, max_patches);
+    const Result<Reflector> made = make_reflector(source.mesh, source.name, source.side, max_cached_patches);
     if (made) return bytes_of(*made);
     fmt::print(stderr, "warning: {}; {}\n", to_string(made.errors().front()), wanted[i].without);
     return std::string();

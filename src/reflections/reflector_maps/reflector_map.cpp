@@ -19,14 +19,9 @@ struct Sampler {
     return {t[0], t[1], t[2], t[3]};
   }
 
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION
 #include "reflections/reflector_maps/reflector_map.glsl"
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION inline
 };
 
-constexpr float pi = 3.14159265f;
 constexpr float window_margin = 1.1f;   // about the patch
 constexpr float widest_window = 0.9f;   // beyond it, all directions
 constexpr float min_breadth = 1e-3f;    // radians, of a band
@@ -67,14 +62,14 @@ float square_extent(const ReflectorMesh& mesh, const ReflectorPatch& patch, cons
 
 /// The band all around the third axis that holds all corners of a patch.
 glm::vec3 band_around(const ReflectorMesh& mesh, const ReflectorPatch& patch, const glm::mat3& axes) {
-  float minimum = pi, maximum = 0.0f;
+  float minimum = glm::pi<float>(), maximum = 0.0f;
   for_each_corner(mesh, patch, axes, [&](glm::vec3 direction) {
     const float off_axis = std::atan2(glm::length(glm::vec2(direction)), direction.z);
     minimum = std::min(minimum, off_axis), maximum = std::max(maximum, off_axis);
   });
   const float margin = 0.5f * (window_margin - 1.0f) * (maximum - minimum);
-  minimum = std::max(minimum - margin, 0.0f), maximum = std::min(maximum + margin, pi);
-  return {pi, minimum, maximum - minimum};
+  minimum = std::max(minimum - margin, 0.0f), maximum = std::min(maximum + margin, glm::pi<float>());
+  return {glm::pi<float>(), minimum, maximum - minimum};
 }
 
 /// A window that holds all corners of a patch, seen from its centre: the one of the smaller solid angle.
@@ -97,8 +92,8 @@ MapWindow window_of(const ReflectorMesh& mesh, const ReflectorPatch& patch, int 
   window.axes = {x, glm::cross(z, x), z};
   const float extent = square_extent(mesh, patch, window.axes);
   const glm::vec3 band = band_around(mesh, patch, window.axes);
-  const float of_square = 4.0f * pi * extent * extent,
-              of_band = 2.0f * pi * (std::cos(band.y) - std::cos(band.y + band.z));
+  const float of_square = 4.0f * glm::pi<float>() * extent * extent,
+              of_band = 2.0f * glm::pi<float>() * (std::cos(band.y) - std::cos(band.y + band.z));
   if (band.z > min_breadth && of_band < band_share * of_square)
     window.extent = 0.0f, window.band = band;
   else

@@ -32,8 +32,6 @@ struct RefractionSearch {
   const Body& body;
   std::array<glm::mat4, refraction_ray_count> rays{};
 
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION
 #include "reflections/reflection_search/surface_point.glsl"
   // Each needs those before it: lines between them keep clang-format from sorting.
 #include "reflections/refraction/glass_rays.glsl"
@@ -47,8 +45,5 @@ struct RefractionSearch {
   /// Starting ray number `i`; called by the included shader code.
   mat4 refraction_start(int i) { return rays[std::size_t(i)]; }
 };
-
-#undef GLSL_FUNCTION
-#define GLSL_FUNCTION inline
 
 }  // namespace parvis::refraction

@@ -12,7 +12,7 @@ using namespace reflection_search;
 using namespace reflector_maps;
 namespace {
 
-const glm::vec3 eye{2.4f, -5.2f, 2.6f}, target{0, 0, 1};
+const glm::vec3 viewer{2.4f, -5.2f, 2.6f}, looked_at{0, 0, 1};
 
 /// A ball among boxes, with a moving quad at its left and a static one before it, aslant over the floor.
 class DrawablesTest : public gl::ContextTest {
@@ -29,7 +29,7 @@ class DrawablesTest : public gl::ContextTest {
   }
   Compared draw(const render::Drawables& drawables) const {
     return draw_by(
-        scene_, eye, target,
+        scene_, viewer, looked_at,
         [](const scene::Scene& shown, render::Renderer& renderer) {
           return make_virtual_objects(shown, renderer);
         },
@@ -61,7 +61,7 @@ TEST_F(DrawablesTest, PicturesAndMirrorImagesAreWhatRaysSee) {
 
 TEST_F(DrawablesTest, PickingAndRaysGiveTheSameNumbers) {
   Camera camera;
-  camera.world_from_camera = look_at(eye, target);
+  camera.world_from_camera = look_at(viewer, looked_at);
   Result<std::unique_ptr<render::Renderer>> renderer =
       render::Renderer::create(scene_, drawables_, light::sun_and_sky);
   ASSERT_TRUE(renderer) << to_string(renderer.errors());

@@ -9,7 +9,6 @@
 
 namespace parvis::virtual_objects {
 
-using namespace scene::attribute;
 using namespace reflection_search;
 using namespace reflector_maps;
 namespace {
@@ -17,6 +16,7 @@ namespace {
 using scene::AttributeSchema, scene::AttributeType;
 
 std::vector<AttributeSchema> virtual_object_attributes() {
+  using namespace scene::attribute;
   const SearchSettings defaults;
   const NearObjectSettings near;
   return {

@@ -48,7 +48,7 @@ void check_tour(const scene::Node& node, scene::SceneBuilder& builder) {
   check_times(node, "stops", builder);
 }
 
-const AttributeSchema name = text("name", "by which other nodes refer to it");
+const AttributeSchema name_attribute = text("name", "by which other nodes refer to it");
 
 AttributeSchema event(const char* of, const char* help, AttributeType source,
                       std::vector<std::string> choices = {}) {
@@ -69,10 +69,10 @@ const std::vector<MessageSchema> running_messages{{"start", "runs from the begin
                                                   {"stop", "halts where it is", {}},
                                                   {"resume", "goes on from where it halted", {}}};
 
-const AttributeSchema time_s = number("time_s", "when, from the beginning; later than the one before")
-                                   .in("s")
-                                   .between(0, 1e6)
-                                   .required();
+const AttributeSchema time_attribute = number("time_s", "when, from the beginning; later than the one before")
+                                           .in("s")
+                                           .between(0, 1e6)
+                                           .required();
 
 NodeSchema keys_schema() {
   return {.type = "keys",
@@ -80,7 +80,8 @@ NodeSchema keys_schema() {
               "Messages sent when a person presses or releases a key or a button. The window's own use of "
               "such a key "
               "rests.",
-          .attributes = {name, event("onPress", "sent when it goes down", AttributeType::choice, key_names()),
+          .attributes = {name_attribute,
+                         event("onPress", "sent when it goes down", AttributeType::choice, key_names()),
                          event("onRelease", "sent when it comes up", AttributeType::choice, key_names())},
           .example =
               "group(name=\"trees\") {\n"
@@ -94,7 +95,7 @@ NodeSchema timer_schema() {
       .type = "timer",
       .help = "Messages sent at times.",
       .attributes =
-          {name, running("1"),
+          {name_attribute, running("1"),
            number("period_s", "after which it starts over; 0: never").in("s").between(0, 1e6).by_default("0"),
            event("onTime", "sent so many seconds after the timer began", AttributeType::number)},
       .example =
@@ -107,7 +108,7 @@ NodeSchema proximity_schema() {
   return {
       .type = "proximity",
       .help = "Messages sent when the visitor or an object comes near a point, or leaves.",
-      .attributes = {name, vec3("position", "of the point").in("m").by_default("0 0 0").live(),
+      .attributes = {name_attribute, vec3("position", "of the point").in("m").by_default("0 0 0").live(),
                      number("radius_m", "what counts as near").in("m").between(0, 1e6).by_default("5").live(),
                      event("onEnter", "sent when it comes near", AttributeType::reference, {"visitor"}),
                      event("onLeave", "sent when it leaves", AttributeType::reference, {"visitor"})},
@@ -123,7 +124,7 @@ NodeSchema path_schema() {
           "Moves an object, a group or a camera through its keys. Objects that move stand in nothing that is "
           "computed once.",
       .attributes =
-          {name,
+          {name_attribute,
            reference("of", "the node that moves; its position and heading are those of the path",
                      {"model", "group", "camera"})
                .required(),
@@ -147,7 +148,7 @@ NodeSchema path_schema() {
 NodeSchema key_schema() {
   return {.type = "key",
           .help = "Where a path is at a time. Without angles on any key, the node keeps its own.",
-          .attributes = {time_s,
+          .attributes = {time_attribute,
                          vec3("position", "in the frame in which the moving node stands").in("m").required(),
                          angle("heading_deg", "as the moving node's own; on no key or on all").in("degrees"),
                          angle("pitch_deg", "of a camera, upward from the horizon; on no key or on all")
@@ -181,7 +182,7 @@ NodeSchema tour_schema() {
 NodeSchema stop_schema() {
   return {.type = "stop",
           .help = "A camera through which a tour goes; one that follows an object is where it is then.",
-          .attributes = {time_s, reference("camera", "which", {"camera"}).required()},
+          .attributes = {time_attribute, reference("camera", "which", {"camera"}).required()},
           .stands_in = {"tour"},
           .example =
               "camera(name=\"street\", position=\"0 -20 1.6\")\n"

@@ -7,8 +7,8 @@
 namespace parvis::scene {
 namespace {
 
-constexpr float cell_m = 20.0f;
-constexpr float farthest_cell = 1e8f;  // meshes may reach farther than cells have numbers
+constexpr float earthwork_cell_m = 20.0f;
+constexpr float farthest_earthwork_cell = 1e8f;  // meshes may reach farther than cells have numbers
 // At the ends of a road: on so much more to either side a car turns round, along so much of the road, over
 // the same length again the bed narrows.
 constexpr float turning_m = 3.0f, turning_length_m = 10.0f;
@@ -21,8 +21,9 @@ std::uint64_t key(glm::ivec2 cell) {
   return std::uint64_t(std::uint32_t(cell.x)) << 32u | std::uint32_t(cell.y);
 }
 
-glm::ivec2 cell_of(glm::vec2 point) {
-  return glm::ivec2(glm::clamp(glm::floor(point / cell_m), -farthest_cell, farthest_cell));
+glm::ivec2 earthwork_cell_of(glm::vec2 point) {
+  return glm::ivec2(
+      glm::clamp(glm::floor(point / earthwork_cell_m), -farthest_earthwork_cell, farthest_earthwork_cell));
 }
 
 /// How much wider a bed is to either side, so far from the nearer end of its road.
@@ -81,15 +82,15 @@ void Earthworks::add(const RoadBed& bed, std::uint32_t road) {
     const auto index = std::uint32_t(pieces_.size());
     pieces_.push_back({a.position, b.position, half_at(i), half_at(i + 1), road, kind, bed.is_turn});
     const float around_m = bed.half_m + turning_m + reach_m;
-    const glm::ivec2 low = cell_of(glm::vec2(glm::min(a.position, b.position)) - around_m),
-                     high = cell_of(glm::vec2(glm::max(a.position, b.position)) + around_m);
+    const glm::ivec2 low = earthwork_cell_of(glm::vec2(glm::min(a.position, b.position)) - around_m),
+                     high = earthwork_cell_of(glm::vec2(glm::max(a.position, b.position)) + around_m);
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x) cells_[key({x, y})].push_back(index);
   }
 }
 
 const std::vector<std::uint32_t>* Earthworks::near(glm::vec2 point) const {
-  const auto cell = cells_.find(key(cell_of(point)));
+  const auto cell = cells_.find(key(earthwork_cell_of(point)));
   return cell == cells_.end() ? nullptr : &cell->second;
 }
 
@@ -125,7 +126,7 @@ float Earthworks::at(glm::vec2 point, float bare_m) const {
 }
 
 bool Earthworks::may_change(glm::vec2 low, glm::vec2 high) const {
-  const glm::ivec2 first = cell_of(low), last = cell_of(high);
+  const glm::ivec2 first = earthwork_cell_of(low), last = earthwork_cell_of(high);
   if (std::int64_t(last.x - first.x + 1) * std::int64_t(last.y - first.y + 1) > std::int64_t(cells_.size()))
     return !cells_.empty();
   for (int y = first.y; y <= last.y; ++y)

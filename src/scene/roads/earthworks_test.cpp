@@ -8,11 +8,11 @@
 namespace parvis::scene {
 namespace {
 
-constexpr float half_m = 6.0f;
+constexpr float works_half_m = 6.0f;
 
 RoadBed bed(const std::vector<glm::vec3>& path, Bed kind = Bed::earth) {
   RoadBed result;
-  result.half_m = half_m;
+  result.half_m = works_half_m;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const int steps = int(std::ceil(glm::distance(path[i], path[i + 1]) / 10.0f));
     for (int k = i == 0 ? 0 : 1; k <= steps; ++k)

@@ -8,7 +8,7 @@ namespace parvis::scene {
 namespace {
 
 constexpr float car_lane_m = 2.35f;
-const glm::vec3 west{0, 0, 0}, east{100, 0, 0}, north{50, 80, 0}, far_east{200, 0, 0};
+const glm::vec3 west_end{0, 0, 0}, east_end{100, 0, 0}, north_end{50, 80, 0}, far_east{200, 0, 0};
 
 Road street(glm::vec3 from, glm::vec3 to, float lane_width_m) {
   Road road;
@@ -18,7 +18,8 @@ Road street(glm::vec3 from, glm::vec3 to, float lane_width_m) {
 }
 
 TEST(OneWayStreets, ARingOfNarrowStreetsTurnsOneWay) {
-  std::vector<Road> roads{street(west, east, 1.2f), street(north, east, 1.2f), street(north, west, 1.2f)};
+  std::vector<Road> roads{street(west_end, east_end, 1.2f), street(north_end, east_end, 1.2f),
+                          street(north_end, west_end, 1.2f)};
   make_narrow_streets_one_way(roads, car_lane_m);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_TRUE(roads[i].is_one_way);
@@ -28,8 +29,8 @@ TEST(OneWayStreets, ARingOfNarrowStreetsTurnsOneWay) {
 }
 
 TEST(OneWayStreets, TheOnlyWayToAPlaceStaysOpenBothWays) {
-  std::vector<Road> roads{street(west, east, 3.0f), street(north, east, 3.0f), street(north, west, 1.0f),
-                          street(east, far_east, 1.2f)};
+  std::vector<Road> roads{street(west_end, east_end, 3.0f), street(north_end, east_end, 3.0f),
+                          street(north_end, west_end, 1.0f), street(east_end, far_east, 1.2f)};
   make_narrow_streets_one_way(roads, car_lane_m);
   EXPECT_FALSE(roads[0].is_one_way || roads[1].is_one_way) << "wide enough for two";
   EXPECT_TRUE(roads[2].is_one_way);

@@ -9,7 +9,7 @@ namespace parvis::scene {
 namespace {
 
 constexpr float min_cell_m = 16.0f;
-constexpr float aside = 0.3f;  // lane widths off the expected place
+constexpr float max_aside = 0.3f;  // lane widths off the expected place
 
 /// Whether a segment of a lane passes within `reach_m` of `place` against the direction `way`.
 bool passes_against(const Lane& lane, std::size_t segment, glm::vec2 place, glm::vec2 direction,
@@ -57,8 +57,8 @@ bool OppositeLanes::has(const Lane& lane) const {
       const auto found = pieces_.find(cell_of(middle + glm::ivec2(x, y)));
       if (found == pieces_.end()) continue;
       for (const Piece& piece : found->second)
-        if (piece.lane != &lane &&
-            passes_against(*piece.lane, piece.segment, expected, glm::vec2(direction), aside * lane.width_m))
+        if (piece.lane != &lane && passes_against(*piece.lane, piece.segment, expected, glm::vec2(direction),
+                                                  max_aside * lane.width_m))
           return true;
     }
   return false;

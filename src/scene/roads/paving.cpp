@@ -14,12 +14,12 @@ namespace parvis::scene {
 
 namespace {
 
-constexpr float reach_m = 6.0f;     // beside a lane's middle, in which its ground is looked for
-constexpr float step_m = 1.0f;      // along lanes and across them
-constexpr float tile_m = 6.0f;      // of the pictures
-constexpr float margin_m = 0.25f;   // of asphalt beside a lane, so that neighbours leave no gap
-constexpr float kerb_m = 0.15f;     // beside the asphalt
-constexpr float pavement_m = 2.6f;  // beside the asphalt
+constexpr float beside_reach_m = 6.0f;  // beside a lane's middle, in which its ground is looked for
+constexpr float paving_step_m = 1.0f;   // along lanes and across them
+constexpr float tile_m = 6.0f;          // of the pictures
+constexpr float margin_m = 0.25f;       // of asphalt beside a lane, so that neighbours leave no gap
+constexpr float kerb_m = 0.15f;         // beside the asphalt
+constexpr float pavement_m = 2.6f;      // beside the asphalt
 static_assert(margin_m + pavement_m <= paved_beside_m + 1e-6f);
 // Over the ground, whose mesh is coarse. What lies higher covers what is below: so all lanes together give
 // one carriageway with one kerb, however they cross.
@@ -171,7 +171,7 @@ void add_rows(Mesh& mesh, std::vector<Row> rows) {
 /// over the ground.
 std::vector<Row> ribbon(const Path& line, float left_m, float right_m, const GroundHeights& ground,
                         float lift) {
-  const std::uint32_t strips = std::uint32_t(std::max(1.0f, std::ceil((right_m - left_m) / step_m)));
+  const std::uint32_t strips = std::uint32_t(std::max(1.0f, std::ceil((right_m - left_m) / paving_step_m)));
   std::vector<Row> rows;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const glm::vec3 before = line[i > 0 ? i - 1 : 0], after = line[std::min(i + 1, line.size() - 1)];
@@ -204,7 +204,7 @@ void add_seen(Mesh& mesh, const std::vector<Row>& rows, const AsphaltCover& asph
 /// The lane's points at every metre or nearer, on the ground.
 Path laid(const Path& points, const GroundHeights& ground) {
   const MeasuredPath path(points);
-  const int count = std::max(1, int(std::ceil(path.length() / step_m)));
+  const int count = std::max(1, int(std::ceil(path.length() / paving_step_m)));
   Path result;
   for (int i = 0; i <= count; ++i) {
     glm::vec3 p = path.at(path.length() * float(i) / float(count));
@@ -264,7 +264,7 @@ void follow(RoadGraph& roads, const GroundHeights& ground) {
 
 void lay_lanes(Scene& scene) {
   if (scene.roads.empty()) return;
-  lay(scene.roads, GroundHeights(scene, reach_m));
+  lay(scene.roads, GroundHeights(scene, beside_reach_m));
 }
 
 std::uint64_t paving_bytes(const RoadGraph& roads) {
@@ -273,8 +273,8 @@ std::uint64_t paving_bytes(const RoadGraph& roads) {
       2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 6 * sizeof(std::uint32_t);
   double points = 0.0;
   for (const Lane& lane : roads.lanes)
-    points += 3.0 * double(MeasuredPath(lane.points).length() / step_m + 2.0f) *
-              double((lane.width_m + pavement_m) / step_m + 2.0f);
+    points += 3.0 * double(MeasuredPath(lane.points).length() / paving_step_m + 2.0f) *
+              double((lane.width_m + pavement_m) / paving_step_m + 2.0f);
   return std::uint64_t(points) * bytes_per_point;
 }
 
@@ -285,7 +285,7 @@ void pave(Scene& scene) {
 
 void pave_laid_lanes(Scene& scene) {
   if (scene.roads.empty()) return;
-  const GroundHeights ground(scene, reach_m);
+  const GroundHeights ground(scene, beside_reach_m);
   follow(scene.roads, ground);
   const OppositeLanes opposite(scene.roads);
   auto model = std::make_shared<Model>(empty_paving());

@@ -15,14 +15,14 @@ namespace parvis::scene {
 namespace {
 
 constexpr float shoulder_m = 1.0f;      // of earth beside what is paved, so that slopes begin beyond it
-constexpr float step_m = 10.0f;         // between points of a bed
+constexpr float bed_step_m = 10.0f;     // between points of a bed
 constexpr float lies_on_m = 0.05f;      // what lies so much higher than terrain covers it
 constexpr float below_cover_m = 0.15f;  // of terrain that other ground covers: both are drawn to centimetres
 constexpr float steepest = 0.7f;        // cosine of 45 degrees: what is steeper is no ground
 constexpr float turn_step_m = 4.0f;     // between points of a turn: 30 cm off an arc of 6.5 m
 constexpr float min_turn_sine = 0.34f;  // 20 degrees: less stays within the beds
-constexpr float cell_m = 16.0f;
-constexpr float farthest_cell = 1e8f;  // meshes may reach farther than cells have numbers
+constexpr float bed_cell_m = 16.0f;
+constexpr float farthest_bed_cell = 1e8f;  // meshes may reach farther than cells have numbers
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 /// A point of a road's middle line, with the ground that is found below or above it.
@@ -33,15 +33,15 @@ struct Sample {
 };
 
 /// What kind of ground a part is.
-enum class Ground { none, terrain, other, deck, cover };
+enum class GroundKind { none, terrain, other, deck, cover };
 
-Ground ground_of(const std::string& object, Terrain terrain) {
-  if (terrain_of(object) == terrain) return Ground::terrain;
-  if (object.starts_with("Bridge")) return Ground::deck;
-  if (is_ground(object)) return Ground::other;
+GroundKind ground_of(const std::string& object, Terrain terrain) {
+  if (terrain_of(object) == terrain) return GroundKind::terrain;
+  if (object.starts_with("Bridge")) return GroundKind::deck;
+  if (is_ground(object)) return GroundKind::other;
   const bool may_cover = object.starts_with("Tunnel") || object.starts_with("Roof") ||
                          object.starts_with("OuterCeiling");  // trees and bridges leave a trench open
-  return may_cover ? Ground::cover : Ground::none;
+  return may_cover ? GroundKind::cover : GroundKind::none;
 }
 
 /// Samples by cells of the plan.
@@ -52,7 +52,7 @@ class Samples {
       cells_[key(cell_of(glm::vec2(samples[i].position)))].push_back(i);
   }
 
-  void note(glm::vec3 a, glm::vec3 b, glm::vec3 c, Ground ground) {
+  void note(glm::vec3 a, glm::vec3 b, glm::vec3 c, GroundKind ground) {
     const glm::vec3 normal = glm::cross(b - a, c - a);
     if (!(std::abs(normal.z) > steepest * glm::length(normal)) || normal.z == 0.0f) return;
     const glm::ivec2 low = cell_of(glm::min(glm::vec2(a), glm::min(glm::vec2(b), glm::vec2(c)))),
@@ -74,11 +74,11 @@ class Samples {
     return std::uint64_t(std::uint32_t(cell.x)) << 32u | std::uint32_t(cell.y);
   }
   static glm::ivec2 cell_of(glm::vec2 point) {
-    return glm::ivec2(glm::clamp(glm::floor(point / cell_m), -farthest_cell, farthest_cell));
+    return glm::ivec2(glm::clamp(glm::floor(point / bed_cell_m), -farthest_bed_cell, farthest_bed_cell));
   }
 
   static void note_at(Sample& sample, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 normal,
-                      Ground ground) {
+                      GroundKind ground) {
     const glm::vec2 p(sample.position);
     const auto side = [&](glm::vec3 from, glm::vec3 to) {
       return (to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x);
@@ -86,11 +86,11 @@ class Samples {
     const float ab = side(a, b), bc = side(b, c), ca = side(c, a);
     if (std::min({ab, bc, ca}) < 0.0f && std::max({ab, bc, ca}) > 0.0f) return;
     const float height_m = a.z - (normal.x * (p.x - a.x) + normal.y * (p.y - a.y)) / normal.z;
-    const bool may_cover = ground == Ground::cover || ground == Ground::other;
+    const bool may_cover = ground == GroundKind::cover || ground == GroundKind::other;
     if (may_cover && height_m > sample.position.z + ground_reach_m) sample.is_covered = true;
-    if (ground == Ground::cover) return;
-    const float near_m = ground == Ground::deck ? deck_reach_m : ground_reach_m;
-    float& known_m = ground == Ground::terrain ? sample.terrain_m : sample.other_m;
+    if (ground == GroundKind::cover) return;
+    const float near_m = ground == GroundKind::deck ? deck_reach_m : ground_reach_m;
+    float& known_m = ground == GroundKind::terrain ? sample.terrain_m : sample.other_m;
     if (std::abs(height_m - sample.position.z) < near_m && !(known_m >= height_m)) known_m = height_m;
   }
 
@@ -103,7 +103,7 @@ void add_samples(const std::vector<glm::vec3>& path, std::vector<Sample>& sample
   for (std::size_t i = 0; i < path.size(); ++i) {
     const glm::vec3 next = path[std::min(i + 1, path.size() - 1)];
     const int steps =
-        std::max(1, int(std::ceil(glm::distance(glm::vec2(path[i]), glm::vec2(next)) / step_m)));
+        std::max(1, int(std::ceil(glm::distance(glm::vec2(path[i]), glm::vec2(next)) / bed_step_m)));
     for (int k = 0; k < (i + 1 < path.size() ? steps : 1); ++k)
       samples.push_back({glm::mix(path[i], next, float(k) / float(steps))});
   }
@@ -185,8 +185,8 @@ std::vector<RoadBed> road_beds(const Scene& scene, std::span<const Road> roads, 
     if (!has_ground(scene, object)) continue;
     const std::vector<glm::mat4> pose = object.pose.empty() ? rest_pose(*object.model) : object.pose;
     for (const Part& part : object.model->parts) {
-      const Ground ground = ground_of(part.object, terrain);
-      if (ground == Ground::none) continue;
+      const GroundKind ground = ground_of(part.object, terrain);
+      if (ground == GroundKind::none) continue;
       const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
       const auto corner = [&](std::size_t i) {
         return glm::vec3(world_from_mesh * glm::vec4(part.mesh.positions[part.mesh.indices[i]], 1.0f));

@@ -18,13 +18,13 @@ namespace parvis::scene {
 namespace {
 
 constexpr float finest_cell_m = 0.5f;
-constexpr float max_cells = 16e6f;   // larger places get larger cells
-constexpr float margin_m = 4.0f;     // around the polygons
-constexpr float gap_m = 2.0f;        // between surfaces that belong together
-constexpr float island_m2 = 150.0f;  // in the carriageway, driven past, not around
+constexpr float max_cells = 16e6f;        // larger places get larger cells
+constexpr float polygon_margin_m = 4.0f;  // around the polygons
+constexpr float gap_m = 2.0f;             // between surfaces that belong together
+constexpr float island_m2 = 150.0f;       // in the carriageway, driven past, not around
 constexpr float narrowest_road_m = 2.6f;
-constexpr float narrowest_lane_m = 2.35f;  // two cars just pass, a wheel on the pavement
-constexpr float kerb_distance_m = 0.3f;    // that lanes leave on each side
+constexpr float min_lane_m = 2.35f;      // two cars just pass, a wheel on the pavement
+constexpr float kerb_distance_m = 0.3f;  // that lanes leave on each side
 constexpr float widest_lane_m = 3.25f;
 constexpr float shortest_end_m = 25.0f;   // of a road that ends without meeting another
 constexpr float turning_circle_m = 9.0f;  // of a car
@@ -43,10 +43,10 @@ Mask empty_mask(std::span<const RoadPolygon* const> polygons) {
   for (const RoadPolygon* polygon : polygons)
     for (const std::vector<glm::vec3>& ring : polygon->rings)
       for (const glm::vec3& p : ring) bounds.add(p);
-  const glm::vec2 size = glm::vec2(bounds.size()) + 2.0f * margin_m;
+  const glm::vec2 size = glm::vec2(bounds.size()) + 2.0f * polygon_margin_m;
   const float cell = std::max(finest_cell_m, std::sqrt(size.x * size.y / max_cells));
   const glm::ivec2 cells(glm::ceil(size / cell));
-  return Mask(cells.x, cells.y, cell, glm::vec2(bounds.min) - margin_m, 0);
+  return Mask(cells.x, cells.y, cell, glm::vec2(bounds.min) - polygon_margin_m, 0);
 }
 
 /// z of a polygon's plane as a function of the plan (Newell's normal); level where it stands upright.
@@ -254,7 +254,7 @@ std::vector<Road> roads_from_polygons(std::span<const RoadPolygon> polygons) {
   });
   std::vector<Road> kept = without_narrow_dead_ends(roads);
   if (kept.empty()) kept = std::move(roads);
-  make_narrow_streets_one_way(kept, narrowest_lane_m);
+  make_narrow_streets_one_way(kept, min_lane_m);
   for (std::size_t i = 0; i < kept.size(); ++i) kept[i].name = fmt::format("road surface {}", i + 1);
   return kept;
 }

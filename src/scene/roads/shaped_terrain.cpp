@@ -13,11 +13,11 @@
 namespace parvis::scene {
 namespace {
 
-constexpr float tolerance_m = 0.01f;  // of the surface, off what the works say
-constexpr float shortest_m = 1.0f;    // of edges that are divided
-constexpr float edge_step_m = 1.0f;   // between places of an edge that are looked at
-constexpr int max_edge_steps = 256;   // on an edge across a whole town
-constexpr float inner_step_m = 6.0f;  // the same inside a triangle: dead ends cross no edge
+constexpr float surface_tolerance_m = 0.01f;  // of the surface, off what the works say
+constexpr float shortest_m = 1.0f;            // of edges that are divided
+constexpr float edge_step_m = 1.0f;           // between places of an edge that are looked at
+constexpr int max_edge_steps = 256;           // on an edge across a whole town
+constexpr float inner_step_m = 6.0f;          // the same inside a triangle: dead ends cross no edge
 constexpr int max_inner_steps = 150;
 constexpr int max_depth = 40;
 constexpr float slope_step_m = 0.5f;         // for normals
@@ -100,7 +100,7 @@ class Shaping {
     const int steps = std::clamp(int(std::ceil(length_m / edge_step_m)), 2, max_edge_steps);
     for (int k = 1; k < steps; ++k) {
       const float share = float(k) / float(steps);
-      if (error_m(std::array{a, b}, std::array{1.0f - share, share}) > tolerance_m) return true;
+      if (error_m(std::array{a, b}, std::array{1.0f - share, share}) > surface_tolerance_m) return true;
     }
     return false;
   }
@@ -127,7 +127,7 @@ class Shaping {
     for (int i = 1; i < steps; ++i)
       for (int k = 1; i + k < steps; ++k) {
         const float u = float(i) / float(steps), v = float(k) / float(steps);
-        if (error_m(t, std::array{1.0f - u - v, u, v}) > tolerance_m) return true;
+        if (error_m(t, std::array{1.0f - u - v, u, v}) > surface_tolerance_m) return true;
       }
     return false;
   }

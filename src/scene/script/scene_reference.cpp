@@ -111,7 +111,7 @@ std::string message_row(const MessageSchema& schema) {
   return fmt::format("| `{}` | {} | {} |\n", pattern, types, escaped(schema.help));
 }
 
-std::string place_of(const NodeSchema& schema) {
+std::string place_in_tree(const NodeSchema& schema) {
   std::vector<std::string> places;
   places.reserve(schema.stands_in.size());
   for (const std::string& parent : schema.stands_in)
@@ -120,7 +120,7 @@ std::string place_of(const NodeSchema& schema) {
 }
 
 std::string node_section(const NodeSchema& schema, const NodeRegistry& registry) {
-  std::string text = fmt::format("\n## {}\n\n{}\n\n{}", schema.type, schema.help, place_of(schema));
+  std::string text = fmt::format("\n## {}\n\n{}\n\n{}", schema.type, schema.help, place_in_tree(schema));
   const std::vector<std::string> children = registry.children_of(schema.type);
   if (!children.empty()) text += fmt::format(" Takes `{}`.", fmt::join(children, "`, `"));
   text += "\n";

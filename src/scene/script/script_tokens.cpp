@@ -5,7 +5,7 @@
 namespace parvis::scene {
 namespace {
 
-constexpr std::size_t longest_quote = 40;
+constexpr std::size_t max_quote = 40;
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
@@ -15,10 +15,10 @@ bool is_symbol(char c) { return c == '(' || c == ')' || c == '{' || c == '}' || 
 
 std::string quoted(const Token& token) {
   if (token.kind == TokenKind::end) return "the end of the file";
-  std::string text = token.text.substr(0, longest_quote);
+  std::string text = token.text.substr(0, max_quote);
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
-  if (token.text.size() > longest_quote) text += "...";
+  if (token.text.size() > max_quote) text += "...";
   return (token.kind == TokenKind::string ? "the text \"" : "'") + text +
          (token.kind == TokenKind::string ? "\"" : "'");
 }
