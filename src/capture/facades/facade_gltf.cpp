@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* layers_extension = "PARVIS_layered_photographs";
-constexpr int layers_version = 1;
+constexpr int extension_version = 1;
 
 /// The lists of a facade that are views of the file, by their names there.
 template <class Facade, class Visit>
@@ -111,7 +111,7 @@ bool take(const scene::GltfOwnData& own, const char* name, std::vector<T>& list)
 
 Status write_facade_gltf(const std::filesystem::path& file, const PackedFacade& facade, int max_side) {
   if (Status status = check_facade(facade, file); !status) return status;
-  Json json{{"version", layers_version}, {"surfaces", facade.surfaces}, {"photographs", Json::array()}};
+  Json json{{"version", extension_version}, {"surfaces", facade.surfaces}, {"photographs", Json::array()}};
   for (const PackedPhoto& photo : facade.photos) json["photographs"].push_back(json_of(photo));
   json["tile_inner"] = tile_inner, json["tile_border"] = tile_border, json["tile_levels"] = tile_levels;
   json["depth_cell"] = depth_cell;
@@ -130,7 +130,7 @@ Result<PackedFacade> read_facade_gltf(const std::filesystem::path& file) {
   PackedFacade facade;
   try {
     const Json json = Json::parse(own->json);
-    if (json.at("version") != layers_version || json.at("tile_inner") != tile_inner ||
+    if (json.at("version") != extension_version || json.at("tile_inner") != tile_inner ||
         json.at("tile_border") != tile_border || json.at("tile_levels") != tile_levels ||
         json.at("depth_cell") != depth_cell)
       return error("{}: its {} is of another version; export the place again (parvis facade export)",
