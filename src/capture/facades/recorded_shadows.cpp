@@ -9,13 +9,10 @@
 #include "base/random.h"
 #include "capture/facades/facade_lookup.h"
 #include "capture/photographs/shadow_strength.h"
-#include "graphics/shading/tone_curve.h"
+#include "graphics/shading/recorded_light.h"
 
 namespace parvis::facades {
 namespace {
-
-using namespace shading;  // GLSL's own functions and types, for the included text
-#include "graphics/shading/recorded_light.glsl"
 
 constexpr std::size_t points_per_surface = 1500;
 constexpr std::size_t max_decoded_bytes = std::size_t(1) << 30;  // of texels, while a scene is read
@@ -66,8 +63,8 @@ std::optional<photographs::LitAndShaded> shadows_of(const PackedFacade& facade, 
     const glm::vec4 colour = lookup.colour(std::uint32_t(point.triangle), point.position, away / distance_m,
                                            1e-3f * distance_m, point.barycentric);
     if (colour.w < 0.5f) continue;
-    radiances.push_back(
-        tone_unmapped(linear_from_srgb(glm::clamp(glm::vec3(colour), glm::vec3(0.0f), glm::vec3(1.0f)))));
+    radiances.push_back(shading::tone_unmapped(
+        linear_from_srgb(glm::clamp(glm::vec3(colour), glm::vec3(0.0f), glm::vec3(1.0f)))));
   }
   return photographs::lit_and_shaded(radiances);
 }

@@ -4,16 +4,13 @@
 #include "capture/facades/facade_lookup.h"
 #include "capture/facades/placed_facade.h"
 #include "capture/photographs/shadow_strength.h"
+#include "graphics/shading/recorded_light.h"
 #include "graphics/shading/recorded_shadow.h"
-#include "graphics/shading/tone_curve.h"
 #include "scene/data/scene.h"
 #include "scene/data/sun_shadows.h"
 
 namespace parvis::facades {
 namespace {
-
-using namespace shading;  // GLSL's own functions and types, for the included text
-#include "graphics/shading/recorded_light.glsl"
 
 /// A facade's photographs, as a surface that depends on the view.
 class FacadeSurface final : public scene::TracedSurface {
@@ -34,7 +31,7 @@ class FacadeSurface final : public scene::TracedSurface {
     point.normal = hit.to_viewer;
     point.base_colour = glm::vec3(0.0f), point.metallic = 1.0f, point.roughness = 1.0f;
     const glm::vec3 srgb = glm::clamp(glm::vec3(colour(hit)), 0.0f, 1.0f);
-    const glm::vec3 exposed = tone_unmapped(linear_from_srgb(srgb));
+    const glm::vec3 exposed = shading::tone_unmapped(linear_from_srgb(srgb));
     point.emission = radiance_of_exposed_ * exposed;
     const std::uint8_t lit = facade_->lit_of_triangle(first_triangle_ + hit.triangle);
     point.kept_in_shadow = kept_in_shadow_of(kept_in_shadow_, photographs::decoded_luminance(lit), exposed);

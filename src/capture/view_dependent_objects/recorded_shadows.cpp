@@ -7,13 +7,10 @@
 #include "capture/photographs/shadow_strength.h"
 #include "capture/view_dependent_objects/blended_model.h"
 #include "capture/view_dependent_objects/view_lookup.h"
-#include "graphics/shading/tone_curve.h"
+#include "graphics/shading/recorded_light.h"
 
 namespace parvis::view_dependent_objects {
 namespace {
-
-using namespace shading;  // GLSL's own functions and types, for the included text
-#include "graphics/shading/recorded_light.glsl"
 
 constexpr std::size_t points_per_view = 600;
 
@@ -33,7 +30,8 @@ void add_colours(const ViewLookup& lookup, const BlendedModel& model, const Piec
     if (!(glm::length(away) > 0.0f)) continue;
     const glm::vec4 colour = lookup.colour(piece, {triangle, weights, glm::normalize(away), 0.0f}, 1);
     if (colour.w >= 0.5f)
-      radiances.push_back(tone_unmapped(glm::clamp(glm::vec3(colour), glm::vec3(0.0f), glm::vec3(1.0f))));
+      radiances.push_back(
+          shading::tone_unmapped(glm::clamp(glm::vec3(colour), glm::vec3(0.0f), glm::vec3(1.0f))));
   }
 }
 

@@ -2,16 +2,13 @@
 
 #include "capture/view_dependent_objects/placed_object.h"
 #include "capture/view_dependent_objects/view_lookup.h"
+#include "graphics/shading/recorded_light.h"
 #include "graphics/shading/recorded_shadow.h"
-#include "graphics/shading/tone_curve.h"
 #include "scene/data/scene.h"
 #include "scene/data/sun_shadows.h"
 
 namespace parvis::view_dependent_objects {
 namespace {
-
-using namespace shading;  // GLSL's own functions and types, for the included text
-#include "graphics/shading/recorded_light.glsl"
 
 /// A piece's textures, as a surface that depends on the view.
 class ObjectSurface final : public scene::TracedSurface {
@@ -31,7 +28,7 @@ class ObjectSurface final : public scene::TracedSurface {
     scene::TracedPoint point;
     point.normal = hit.to_viewer;  // textures have recorded reflections, too: black metal adds none here
     point.base_colour = glm::vec3(0.0f), point.metallic = 1.0f, point.roughness = 1.0f;
-    const glm::vec3 exposed = tone_unmapped(glm::clamp(glm::vec3(colour(hit)), 0.0f, 1.0f));
+    const glm::vec3 exposed = shading::tone_unmapped(glm::clamp(glm::vec3(colour(hit)), 0.0f, 1.0f));
     point.emission = radiance_of_exposed_ * exposed;
     point.kept_in_shadow = kept_in_shadow_of(kept_in_shadow_, model_->lit_luminance, exposed);
     return point;

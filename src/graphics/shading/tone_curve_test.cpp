@@ -6,11 +6,10 @@
 #include <limits>
 
 #include "base/colour.h"
+#include "graphics/shading/recorded_light.h"
 
 namespace parvis::shading {
 namespace {
-#include "graphics/shading/recorded_light.glsl"
-
 float mapped(float exposed) { return tone_mapped(vec3(exposed)).x; }
 
 TEST(ToneCurve, RisesFromBlackToWhite) {
