@@ -38,6 +38,7 @@ struct LayerTriangle {
 struct PlaneFrame {
   glm::dvec3 origin, u, v, normal;
 };
+/// The frame of a triangle's plane, at its first corner.
 PlaneFrame frame_of(const LayerTriangle& triangle);
 
 /// A named object of the coarse model.

@@ -8,7 +8,7 @@
 namespace parvis::scene {
 namespace {
 
-constexpr glm::dvec2 leiden_deg{4.36, 52.01};  // east, north
+constexpr glm::dvec2 in_delft_deg{4.36, 52.01};  // east, north
 constexpr const char* latitude_first_system = "urn:ogc:def:crs:EPSG::4979";
 constexpr const char* longitude_first_system = "urn:ogc:def:crs:OGC:1.3:CRS84";
 
@@ -16,12 +16,12 @@ constexpr const char* longitude_first_system = "urn:ogc:def:crs:OGC:1.3:CRS84";
 enum class Written { solid, named_surfaces };
 
 /// A house whose plan is an L, open to the north east: 0.0002 x 0.00015 degrees, 6 m high.
-Json house_at(glm::dvec2 leiden_deg, bool is_north_first, const char* system, Written written) {
+Json house_at(glm::dvec2 in_delft_deg, bool is_north_first, const char* system, Written written) {
   Json city = Json::parse(R"({"type":"CityJSON","version":"1.1","CityObjects":{"house":{"type":"Building"}},
     "transform":{"scale":[1e-7,1e-7,1]}})");
   city["metadata"]["referenceSystem"] = system;
-  if (is_north_first) std::swap(leiden_deg.x, leiden_deg.y);
-  city["transform"]["translate"] = {leiden_deg.x, leiden_deg.y, 0};
+  if (is_north_first) std::swap(in_delft_deg.x, in_delft_deg.y);
+  city["transform"]["translate"] = {in_delft_deg.x, in_delft_deg.y, 0};
   const std::vector<glm::ivec2> plan{{0, 0}, {2000, 0}, {2000, 500}, {1000, 500}, {1000, 1500}, {0, 1500}};
   for (const int height : {0, 6})
     for (const glm::ivec2 corner : plan)
@@ -88,7 +88,7 @@ Roof roof_of(const Model& model) {
 void expect_house_of_delft(const Place& place, const std::string& what) {
   ASSERT_TRUE(place.model) << what << ": " << to_string(place.model.errors());
   ASSERT_TRUE(place.deg) << what;
-  EXPECT_LT(glm::distance(*place.deg, leiden_deg), 1e-3) << what;
+  EXPECT_LT(glm::distance(*place.deg, in_delft_deg), 1e-3) << what;
   const glm::vec3 size = bounds(*place.model).size();
   EXPECT_NEAR(size.x, 13.7f, 0.6f) << what << ": 0.0002 degrees of longitude";
   EXPECT_NEAR(size.y, 16.7f, 0.6f) << what << ": 0.00015 degrees of latitude";
@@ -103,12 +103,12 @@ TEST(CityJsonClues, HousesInDegreesStandWhereTheyAreInEitherOrderOfTheAxes) {
       const std::string what = fmt::format("{}, {}", is_north_first ? "latitude first" : "longitude first",
                                            written == Written::solid ? "solid" : "named surfaces");
       const Place as_named =
-          read(house_at(leiden_deg, is_north_first,
+          read(house_at(in_delft_deg, is_north_first,
                         is_north_first ? latitude_first_system : longitude_first_system, written));
       expect_house_of_delft(as_named, what);
       EXPECT_EQ(as_named.warnings, "") << what;
       const Place exchanged =
-          read(house_at(leiden_deg, is_north_first,
+          read(house_at(in_delft_deg, is_north_first,
                         is_north_first ? longitude_first_system : latitude_first_system, written));
       expect_house_of_delft(exchanged, what + ", against its name");
       EXPECT_NE(exchanged.warnings.find("by its roofs it has " +
@@ -120,14 +120,14 @@ TEST(CityJsonClues, HousesInDegreesStandWhereTheyAreInEitherOrderOfTheAxes) {
 
 TEST(CityJsonClues, VerticesThatNoObjectNamesDoNotCount) {
   for (const bool is_north_first : {false, true}) {
-    Json city = house_at(leiden_deg, is_north_first, latitude_first_system, Written::solid);
+    Json city = house_at(in_delft_deg, is_north_first, latitude_first_system, Written::solid);
     // Of another town: both of its coordinates could only be a longitude and a latitude in one order.
     city["vertices"].push_back({1'350'000'000, -160'000'000, 900});
     const Place place = read(city);
     expect_house_of_delft(place, is_north_first ? "latitude first" : "longitude first");
     EXPECT_NEAR(bounds(*place.model).centre().x, 0.0f, 1.0f) << "the origin is the middle of the house";
   }
-  Json named = house_at(leiden_deg, true, latitude_first_system, Written::solid);
+  Json named = house_at(in_delft_deg, true, latitude_first_system, Written::solid);
   named["vertices"].push_back({1'350'000'000, -160'000'000, 900});
   named["CityObjects"]["house"]["geometry"][0]["boundaries"][0].push_back({{0, 1, 12}});
   EXPECT_NE(read(named).warnings.find("read as metres"), std::string::npos)
@@ -135,7 +135,7 @@ TEST(CityJsonClues, VerticesThatNoObjectNamesDoNotCount) {
 }
 
 TEST(CityJsonClues, IndicesOutOfRangeAreLeftToTheReader) {
-  Json city = house_at(leiden_deg, true, latitude_first_system, Written::named_surfaces);
+  Json city = house_at(in_delft_deg, true, latitude_first_system, Written::named_surfaces);
   city["CityObjects"]["house"]["geometry"][0]["boundaries"][1][0][0] = 99;
   const Place place = read(city);
   ASSERT_FALSE(place.model);

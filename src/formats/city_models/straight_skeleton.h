@@ -19,7 +19,7 @@ struct StraightSkeleton {
   /// the edge first.
   std::vector<std::vector<int>> faces;
 
-  double highest_m() const;
+  double highest_m() const;  ///< the largest z of `points`
 };
 
 /// Corners of an outline up to which a skeleton is sought: the time grows with their cube.

@@ -15,7 +15,7 @@ using scene::AttributeSchema;
 
 AttributeSchema live_number(std::string name, std::string help, std::string fallback, std::string unit,
                             double min, double max, std::vector<std::string> spellings = {}) {
-  return number(std::move(name), std::move(help))
+  return scene::attribute::number(std::move(name), std::move(help))
       .in(std::move(unit))
       .between(min, max)
       .by_default(std::move(fallback))
@@ -25,7 +25,10 @@ AttributeSchema live_number(std::string name, std::string help, std::string fall
 
 AttributeSchema live_integer(std::string name, std::string help, std::string fallback, double min,
                              double max) {
-  return integer(std::move(name), std::move(help)).between(min, max).by_default(std::move(fallback)).live();
+  return scene::attribute::integer(std::move(name), std::move(help))
+      .between(min, max)
+      .by_default(std::move(fallback))
+      .live();
 }
 
 scene::NodeSchema day_light_schema() {

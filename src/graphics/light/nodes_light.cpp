@@ -17,9 +17,8 @@
 namespace parvis::scene {
 namespace {
 
-using namespace attribute;
-
 NodeSchema sun_schema() {
+  using namespace attribute;
   return {.type = "sun",
           .help =
               "Sunlight; where to find the sun is given as a direction or as azimuth and elevation. "
@@ -70,6 +69,7 @@ void build_sun(const Node& node, SceneBuilder& builder) {
 }
 
 NodeSchema sky_schema() {
+  using namespace attribute;
   return {
       .type = "sky",
       .help =
@@ -100,6 +100,7 @@ void build_sky(const Node& node, SceneBuilder& builder) {
 }
 
 NodeSchema air_schema() {
+  using namespace attribute;
   return {.type = "air",
           .help = "Haze that lightens what is far away.",
           .attributes =
@@ -109,6 +110,7 @@ NodeSchema air_schema() {
 }
 
 NodeSchema exposure_schema() {
+  using namespace attribute;
   return {.type = "exposure",
           .help = "How bright the picture is.",
           .attributes = {number("value",

@@ -12,8 +12,6 @@
 namespace parvis::light {
 namespace {
 
-using namespace scene::attribute;
-
 /// What the node says of casters and receivers, until all nodes are built.
 struct ShadowGroups {
   static constexpr std::string_view name = "light.shadow_groups";
@@ -28,6 +26,7 @@ struct ShadowGroups {
 };
 
 scene::NodeSchema shadow_map_schema() {
+  using namespace scene::attribute;
   return {
       .type = "shadowMap",
       .help =

@@ -15,9 +15,8 @@
 namespace parvis::light {
 namespace {
 
-using namespace scene::attribute;
-
 scene::NodeSchema sun_path_schema() {
+  using namespace scene::attribute;
   return {
       .type = sun_path_type,
       .help =

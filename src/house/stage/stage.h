@@ -34,9 +34,9 @@ struct Play {
   scene::Scene scene;
   action::SceneClock clock;
 
-  scene::LiveScene& live() { return clock.live(); }
-  const scene::LiveScene& live() const { return clock.live(); }
-  action::Actions& actions() const { return *clock.find<action::Actions>(); }
+  scene::LiveScene& live() { return clock.live(); }                            ///< the nodes of its script
+  const scene::LiveScene& live() const { return clock.live(); }                ///< the same, for reading
+  action::Actions& actions() const { return *clock.find<action::Actions>(); }  ///< its messages and events
 
   /// Advances all processes by `seconds`. `visitor` is the eye's position, for processes near it. Returns the
   /// warnings, which are also printed on standard error.
