@@ -14,7 +14,7 @@
 namespace parvis {
 namespace {
 
-struct Arguments {
+struct CheckArguments {
   std::filesystem::path scene;
   std::vector<std::filesystem::path> data;
   bool wants_reference = false, wants_schema = false, wants_triangles = false, wants_json = false;
@@ -84,7 +84,7 @@ std::vector<const scene::FileAccount*> accounts_of(const scene::Scene& scene) {
   return accounts;
 }
 
-Status check(Arguments& arguments) {
+Status check(CheckArguments& arguments) {
   const scene::NodeRegistry& registry = house::node_registry();
   if (arguments.wants_reference) {
     fmt::print("{}", scene::scene_reference(registry));
@@ -119,7 +119,7 @@ Status check(Arguments& arguments) {
 
 void add_check(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("check", "Checks a scene; reports every error with its line");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CheckArguments>();
   command->add_option("scene", arguments->scene, "The scene's script (.xp), or a model file");
   command->add_option("--data", arguments->data, "A further folder that the scene may read from");
   add_max_memory(*command);

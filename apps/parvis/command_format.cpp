@@ -7,7 +7,7 @@
 namespace parvis {
 namespace {
 
-struct Arguments {
+struct FormatArguments {
   std::vector<std::filesystem::path> scripts;
   bool only_checks = false;
 };
@@ -25,7 +25,7 @@ Status format_one(const std::filesystem::path& script, bool only_checks) {
   return write_file(std::filesystem::weakly_canonical(script), formatted);
 }
 
-Status format(const Arguments& arguments) {
+Status format(const FormatArguments& arguments) {
   Errors errors;
   for (const std::filesystem::path& script :
        arguments.scripts)  // one that is broken keeps none of the others
@@ -39,7 +39,7 @@ Status format(const Arguments& arguments) {
 
 void add_format(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("format", "Writes scene scripts in one style; comments stay");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<FormatArguments>();
   command->add_option("scripts", arguments->scripts, "Scene scripts (.xp)")->required();
   command->add_flag("--check", arguments->only_checks, "Change nothing; fail where something would change");
   command->footer("Example: parvis format scenes/delft.xp");

@@ -19,11 +19,11 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr const char *meshopt = "EXT_meshopt_compression", *khr_meshopt = "KHR_meshopt_compression",
                      *draco_mesh = "KHR_draco_mesh_compression";
-constexpr std::size_t max_elements = 20'000'000;  // a hostile count must not allocate
+constexpr std::size_t max_compressed_elements = 20'000'000;  // a hostile count must not allocate
 
 std::size_t count_in(const Json& object, const char* name) {
   const auto found = object.find(name);
-  if (found == object.end() || !found->is_number_unsigned() || found->get<std::size_t>() > max_elements * 16)
+  if (found == object.end() || !found->is_number_unsigned() || found->get<std::size_t>() > max_compressed_elements * 16)
     gltf_fail("{}: \"{}\" is missing or no sensible number", meshopt, name);
   return found->get<std::size_t>();
 }
@@ -86,7 +86,7 @@ Bytes unpacked_view(const GltfFile& file, const Json& packing, const std::vector
   const std::string mode = packing.value("mode", ""), filter = packing.value("filter", "NONE");
   if (buffer < 0 || !bytes_fit(offset, length, buffers[std::size_t(buffer)].size()))
     gltf_fail("buffer view {}: its {} reaches beyond its buffer", view, meshopt);
-  if (count > max_elements || !fits_mode(mode, count, stride) || !fits_filter(filter, stride))
+  if (count > max_compressed_elements || !fits_mode(mode, count, stride) || !fits_filter(filter, stride))
     gltf_fail("buffer view {}: {} elements of {} bytes, mode \"{}\", filter \"{}\" are none of {}'s", view,
               count, stride, mode, filter, meshopt);
   gltf_charge(checked_product({count, stride}), "buffer view {}, decompressed,", view);
@@ -119,7 +119,7 @@ std::unique_ptr<draco::Mesh> decoded(std::span<const std::uint8_t> bytes, const 
   try {
     draco::Decoder decoder;
     auto mesh = decoder.DecodeMeshFromBuffer(&source);
-    if (mesh.ok() && mesh.value()->num_points() <= max_elements) return std::move(mesh).value();
+    if (mesh.ok() && mesh.value()->num_points() <= max_compressed_elements) return std::move(mesh).value();
     gltf_fail("mesh \"{}\": its compressed bytes ({}) are damaged: {}", mesh_name, draco_mesh,
               mesh.ok() ? "too many points" : mesh.status().error_msg_string());
   } catch (const std::exception& problem) {

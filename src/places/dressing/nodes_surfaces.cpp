@@ -12,11 +12,10 @@
 namespace parvis::dressing {
 namespace {
 
-using namespace scene::attribute;
-
 constexpr const char *wall_name = "WallSurface", *roof_name = "RoofSurface";
 
 scene::AttributeSchema target_attribute() {
+  using namespace scene::attribute;
   return text("target",
               "name of objects, nodes or materials of the file; * and ? stand for any text and any character")
       .by_default("*");
@@ -30,6 +29,7 @@ std::string target_or(const scene::Node& node, const scene::Model& model, const 
 }
 
 scene::AttributeSchema surface_attribute(const char* usual) {
+  using namespace scene::attribute;
   return text("target",
               fmt::format(
                   "name of objects, nodes or materials of the file; * and ? stand for any text and any "
@@ -51,6 +51,7 @@ void warn(scene::SceneBuilder& builder, const scene::Node& node, const scene::Mo
 }
 
 scene::NodeSchema facades_schema() {
+  using namespace scene::attribute;
   return {.type = "facades",
           .help =
               "Walls with doors, shops and windows for a city model whose buildings are bare volumes; by the "
@@ -73,6 +74,7 @@ void build_facades(const scene::Node& node, scene::Model& model, scene::SceneBui
 }
 
 scene::NodeSchema roofs_schema() {
+  using namespace scene::attribute;
   return {
       .type = "roofs",
       .help =
@@ -93,6 +95,7 @@ void build_roofs(const scene::Node& node, scene::Model& model, scene::SceneBuild
 }
 
 scene::NodeSchema ground_schema() {
+  using namespace scene::attribute;
   return {.type = "ground",
           .help = "What lies on the ground of a city model. The material has the name of the surface.",
           .attributes = {target_attribute(),
@@ -107,6 +110,7 @@ void build_ground(const scene::Node& node, scene::Model& model, scene::SceneBuil
 }
 
 scene::NodeSchema greenery_schema() {
+  using namespace scene::attribute;
   return {.type = "greenery",
           .help =
               "Lawns and trees in place of green that was measured from the air, which stands in a model as "

@@ -25,8 +25,6 @@
 namespace parvis::kerbside {
 namespace {
 
-using namespace scene::attribute;
-
 constexpr std::size_t max_objects = 50'000;
 
 /// A series that a script asks for.
@@ -56,20 +54,24 @@ struct Repeated {
 };
 
 scene::AttributeSchema of_attribute(const std::string& else_what) {
+  using namespace scene::attribute;
   return text("of",
               "names of objects of the scene, with * and ?, of which one stands at each place; they may "
               "be hidden themselves. Without it: " +
                   else_what);
 }
 scene::AttributeSchema seed_attribute() {
+  using namespace scene::attribute;
   return integer("seed", "another one, other shapes and places").between(0, 1e9).by_default("1");
 }
 scene::AttributeSchema spacing_attribute(const std::string& help, double min_m) {
+  using namespace scene::attribute;
   return number("spacing", help).in("m").between(min_m, 500);
 }
 
 /// The circle in which a series stands, where a script gives one, and whether it is to be seen.
 std::vector<scene::AttributeSchema> circle_attributes() {
+  using namespace scene::attribute;
   return {scene::visible_attribute(),
           vec3("around", "with `within`: the middle of the circle in plan where they stand; else everywhere"),
           number("within", "of `around`, in plan").in("m").between(5, 1e5)};
@@ -98,6 +100,7 @@ bool read_circle(const scene::Node& node, scene::SceneBuilder& builder, KerbSeri
 }
 
 scene::NodeSchema street_trees_schema() {
+  using namespace scene::attribute;
   return {
       .type = "streetTrees",
       .help = "Trees along both kerbs of every street, where neither walls nor anything else is in the way.",
@@ -137,6 +140,7 @@ void build_street_trees(const scene::Node& node, scene::SceneBuilder& builder) {
 }
 
 scene::NodeSchema parked_cars_schema() {
+  using namespace scene::attribute;
   return {
       .type = "parkedCars",
       .help =
@@ -169,6 +173,7 @@ void build_parked_cars(const scene::Node& node, scene::SceneBuilder& builder) {
 }
 
 scene::NodeSchema street_furniture_schema() {
+  using namespace scene::attribute;
   std::vector<std::string> kinds;
   for (const FurnitureKind& kind : furniture_kinds()) kinds.push_back(kind.name);
   return {

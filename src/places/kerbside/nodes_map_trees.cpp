@@ -23,8 +23,6 @@
 namespace parvis::kerbside {
 namespace {
 
-using namespace scene::attribute;
-
 constexpr float height_step_m = 2.0f;  // plants within one step share their shape, scaled
 constexpr int shapes_per_kind = 2;     // of each kind and height
 
@@ -49,6 +47,7 @@ struct PlannedTrees {
 };
 
 scene::NodeSchema grown_trees_schema() {
+  using namespace scene::attribute;
   return {.type = "grownTrees",
           .help =
               "Grown plants (plant) in place of the trees of a map or city model: oaks, planes, pines and "

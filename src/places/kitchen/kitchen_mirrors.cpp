@@ -13,7 +13,7 @@ namespace {
 using city::Outline, city::smooth, city::turned, city::tube;
 
 constexpr int mirror_sides = 64, mirror_parts = 6;
-enum Surface : int { polished, black, clear, brushed };
+enum Surface : int { polished, black_handle, clear, brushed };
 
 std::vector<scene::Material> materials() {
   scene::Material steel, handle, glass, dull;
@@ -56,7 +56,7 @@ void add_handle(scene::Model& model, float radius, float height, float length) {
     rings.push_back({{radius - 0.002f + length * share, 0.0f, height + 0.03f * share * share},
                      0.0085f - 0.002f * std::cos(6.2831853f * share)});
   }
-  add(model, "handle", tube(rings), black);
+  add(model, "handle", tube(rings), black_handle);
 }
 
 scene::Model kettle() {
@@ -75,7 +75,7 @@ scene::Model kettle() {
       turned(smooth({{0.004f, 0.158f}, {0.006f, 0.166f}, {0.014f, 0.174f}, {0.012f, 0.184f}, {0.0f, 0.188f}},
                     mirror_parts),
              24),
-      black);
+      black_handle);
   // The spout: a cone that bulges a little.
   const glm::mat4 aslant =
       glm::rotate(glm::translate(glm::mat4(1.0f), {-0.082f, 0.0f, 0.07f}), -0.85f, {0, 1, 0});
@@ -83,7 +83,8 @@ scene::Model kettle() {
       turned(smooth({{0.026f, 0.0f}, {0.0215f, 0.03f}, {0.0165f, 0.06f}, {0.0125f, 0.084f}}, mirror_parts),
              40),
       polished, aslant);
-  add(model, "spout inside", turned({{0.0122f, 0.084f}, {0.009f, 0.06f}, {0.0f, 0.058f}}, 24), black, aslant);
+  add(model, "spout inside", turned({{0.0122f, 0.084f}, {0.009f, 0.06f}, {0.0f, 0.058f}}, 24), black_handle,
+      aslant);
   std::vector<city::TubeRing> rings;
   for (int i = 0; i <= 20; ++i) {
     const float angle = 3.14159265f * float(i) / 20.0f;
@@ -91,7 +92,7 @@ scene::Model kettle() {
         {{0.088f * std::cos(angle), 0.0f, 0.118f + 0.125f * std::pow(std::max(std::sin(angle), 0.0f), 0.8f)},
          0.0075f});
   }
-  add(model, "handle", tube(rings), black);
+  add(model, "handle", tube(rings), black_handle);
   return model;
 }
 
@@ -137,7 +138,7 @@ scene::Model saucepan(const char* name, float radius, float height, bool has_lid
                        {0.0f, height + 0.066f}},
                       mirror_parts),
                24),
-        black);
+        black_handle);
   } else {
     add_turned(model, "inside",
                {{radius, height},

@@ -199,7 +199,7 @@ void MultipleEnvironmentMaps::keep(const scene::Scene& scene, std::size_t map) {
     keeper_ = std::make_unique<MapKeeper>(*baked_);
   }
   const ReferenceMaps& drawn = renewal_.drawn_last();
-  keeper_->keep({0, table_.places(), std::uint32_t(map), std::uint32_t(drawn.resolution()), drawn.read(0)});
+  keeper_->keep({table_.places(), std::uint32_t(map), std::uint32_t(drawn.resolution()), drawn.read(0)});
 }
 
 bool MultipleEnvironmentMaps::supply(render::Renderer& renderer, const scene::Scene& scene) {

@@ -12,7 +12,7 @@ namespace {
 constexpr int max_picture_texels = 8192;  // a side; what OpenGL 4.5 grants is 16384, what phones have is this
 
 enum PictureUnit : GLuint {
-  colours_unit = methods::first_method_unit,
+  picture_colours_unit = methods::first_method_unit,
   distances_unit,
   places_unit,
   finer_unit
@@ -121,12 +121,12 @@ void LocalMapPicture::draw(std::span<const FaceMesh> meshes, const ReferenceMaps
   glDepthFunc(GL_ALWAYS);
   glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);
-  glBindTextureUnit(colours_unit, maps.colours());
+  glBindTextureUnit(picture_colours_unit, maps.colours());
   glBindTextureUnit(distances_unit, maps.distances());
   glBindTextureUnit(places_unit, maps.place_texture());
   const auto draw_with = [&](const gl::Program& program) {
     program.use();
-    program.set("map_colours", int(colours_unit));
+    program.set("map_colours", int(picture_colours_unit));
     program.set("map_distances", int(distances_unit));
     program.set("map_places", int(places_unit));
     program.set("layer_size", glm::vec2(float(maps.resolution()), float(ReferenceMaps::border)));
