@@ -20,7 +20,7 @@ namespace parvis::scene {
 namespace {
 
 constexpr std::size_t max_osm_warnings = 20;
-constexpr double farthest_m = 100'000.0;  // no city is so wide, and floats end at centimetres there
+constexpr double farthest_node_m = 100'000.0;  // no city is so wide, and floats end at centimetres there
 
 bool is_on_earth(glm::dvec2 deg) { return std::abs(deg.x) <= 180.0 && std::abs(deg.y) < max_latitude_deg; }
 
@@ -156,9 +156,9 @@ class OsmFileReader {
     osm_.true_north_deg = projection.true_north_deg(osm_.middle_deg);
     if (osm_.middle_deg.x > 180.0) osm_.middle_deg.x -= 360.0;
     for (auto& [id, place] : osm_.nodes) place = projection(place);
-    if (glm::distance(osm_.corners[0], osm_.corners[2]) < farthest_m)  // else all of it is refused
+    if (glm::distance(osm_.corners[0], osm_.corners[2]) < farthest_node_m)  // else all of it is refused
       std::erase_if(osm_.nodes, [&](const auto& node) {
-        return !(glm::distance(node.second, osm_.middle) < farthest_m);
+        return !(glm::distance(node.second, osm_.middle) < farthest_node_m);
       });
   }
 

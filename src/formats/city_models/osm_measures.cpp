@@ -10,20 +10,40 @@
 namespace parvis::scene {
 namespace {
 
-constexpr double foot_m = 0.3048, inch_m = 0.0254;
+constexpr double metres_per_foot = 0.3048, inch_m = 0.0254;
 
 struct Unit {
   std::string_view name;
   double m;
 };
 /// Those of lower case, longest first where one begins with another.
-constexpr std::array<Unit, 27> units{
-    {{"metres", 1.0},  {"meters", 1.0},    {"metre", 1.0},   {"meter", 1.0},    {"mm", 1e-3},
-     {"cm", 1e-2},     {"km", 1e3},        {"mtr", 1.0},     {"mi", 1609.344},  {"m", 1.0},
-     {"feet", foot_m}, {"foot", foot_m},   {"ft", foot_m},   {"yards", 0.9144}, {"yard", 0.9144},
-     {"yd", 0.9144},   {"inches", inch_m}, {"inch", inch_m}, {"in", inch_m},    {"''", inch_m},
-     {"'", foot_m},    {"\"", inch_m},     {"′", foot_m},    {"″", inch_m},     {"’", foot_m},
-     {"”", inch_m},    {"´", foot_m}}};
+constexpr std::array<Unit, 27> units{{{"metres", 1.0},
+                                      {"meters", 1.0},
+                                      {"metre", 1.0},
+                                      {"meter", 1.0},
+                                      {"mm", 1e-3},
+                                      {"cm", 1e-2},
+                                      {"km", 1e3},
+                                      {"mtr", 1.0},
+                                      {"mi", 1609.344},
+                                      {"m", 1.0},
+                                      {"feet", metres_per_foot},
+                                      {"foot", metres_per_foot},
+                                      {"ft", metres_per_foot},
+                                      {"yards", 0.9144},
+                                      {"yard", 0.9144},
+                                      {"yd", 0.9144},
+                                      {"inches", inch_m},
+                                      {"inch", inch_m},
+                                      {"in", inch_m},
+                                      {"''", inch_m},
+                                      {"'", metres_per_foot},
+                                      {"\"", inch_m},
+                                      {"′", metres_per_foot},
+                                      {"″", inch_m},
+                                      {"’", metres_per_foot},
+                                      {"”", inch_m},
+                                      {"´", metres_per_foot}}};
 
 void skip_blanks(std::string_view& text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
@@ -73,7 +93,7 @@ std::optional<double> metres_in(const std::string& text) {
   if (!first) return std::nullopt;
   const Unit* unit = take_unit(rest);
   double length_m = *first * (unit ? unit->m : 1.0);
-  if (unit && unit->m == foot_m) {  // inches may follow
+  if (unit && unit->m == metres_per_foot) {  // inches may follow
     std::string_view after = rest;
     const std::optional<double> inches = take_number(after);
     const Unit* inch = inches ? take_unit(after) : nullptr;

@@ -24,22 +24,22 @@ struct RoadKind {
   float speed_km_h, lane_width_m;
 };
 /// What a way of each kind has where its tags do not say.
-constexpr std::array<RoadKind, 9> kinds{{{"motorway", 2, 120, 3.5f},
-                                         {"trunk", 1, 90, 3.5f},
-                                         {"primary", 1, 50, 3.25f},
-                                         {"secondary", 1, 50, 3.25f},
-                                         {"tertiary", 1, 50, 3.0f},
-                                         {"unclassified", 1, 50, 3.0f},
-                                         {"residential", 1, 30, 3.0f},
-                                         {"living_street", 1, 10, 2.75f},
-                                         {"service", 1, 20, 2.75f}}};
+constexpr std::array<RoadKind, 9> road_kinds{{{"motorway", 2, 120, 3.5f},
+                                              {"trunk", 1, 90, 3.5f},
+                                              {"primary", 1, 50, 3.25f},
+                                              {"secondary", 1, 50, 3.25f},
+                                              {"tertiary", 1, 50, 3.0f},
+                                              {"unclassified", 1, 50, 3.0f},
+                                              {"residential", 1, 30, 3.0f},
+                                              {"living_street", 1, 10, 2.75f},
+                                              {"service", 1, 20, 2.75f}}};
 
 const RoadKind* kind_of(const OsmTags& tags) {
   std::string name = tag(tags, "highway");
   if (name.ends_with("_link")) name.resize(name.size() - 5);
-  const auto found =
-      std::find_if(kinds.begin(), kinds.end(), [&](const RoadKind& kind) { return name == kind.name; });
-  return found != kinds.end() && tag(tags, "area") != "yes" ? &*found : nullptr;
+  const auto found = std::find_if(road_kinds.begin(), road_kinds.end(),
+                                  [&](const RoadKind& kind) { return name == kind.name; });
+  return found != road_kinds.end() && tag(tags, "area") != "yes" ? &*found : nullptr;
 }
 
 float speed_m_s(const OsmWay& way, const RoadKind& kind) {

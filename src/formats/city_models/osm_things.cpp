@@ -20,7 +20,7 @@ constexpr double lowest_crown_m = 1.3;  // `greenery` takes what is lower for gr
 constexpr double gauge_m = 1.435, rail_width_m = 0.07, rail_height_m = 0.15, ballast_half_m = 1.7;
 constexpr double ballast_lift_m = 0.03;
 constexpr double groove_lift_m = 0.085;  // of a tram's rails: over the asphalt that paving lays
-constexpr double deck_m = 0.9, parapet_m = 1.0, parapet_width_m = 0.25;
+constexpr double deck_m = 0.9, bridge_parapet_m = 1.0, parapet_width_m = 0.25;
 constexpr double beside_m = 3.1;  // of a deck beside the carriageway: pavements
 constexpr double beside_track_m = 0.6;
 constexpr double below_road_m = 0.02;   // carriageways lie on the deck
@@ -211,9 +211,9 @@ void add_deck(const std::vector<RaisedPoint>& points, const GroundOnMap& ground,
   for (const double side : {-1.0, 1.0}) {
     if (!has_parapets) break;
     const double outer_m = side * half_m, inner_m = side * (half_m - parapet_width_m);
-    add_block(
-        sides_of(line, std::min(outer_m, inner_m), std::max(outer_m, inner_m), parapet_m - below_road_m),
-        parapet_m, deck, city);
+    add_block(sides_of(line, std::min(outer_m, inner_m), std::max(outer_m, inner_m),
+                       bridge_parapet_m - below_road_m),
+              bridge_parapet_m, deck, city);
   }
   const std::size_t last = line.size() - 1;
   add_abutment(line[0], glm::normalize(dvec2(line[1] - line[0])), half_m, points[0].above_m, deck, city);

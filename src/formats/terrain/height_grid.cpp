@@ -19,8 +19,8 @@
 namespace parvis::scene {
 namespace {
 
-constexpr int max_across = 1000;        // two million triangles
-constexpr double highest_m = 20'000.0;  // what is beyond is no height on the earth
+constexpr int max_across = 1000;           // two million triangles
+constexpr double max_height_m = 20'000.0;  // what is beyond is no height on the earth
 constexpr double max_block_mb = 256.0;
 
 /// What GDAL says goes into our errors, not to the terminal.
@@ -155,7 +155,7 @@ bool read_heights(GDALRasterBandH band, double unit_m, int width, int height, He
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double metres = unit_m * (offset + scale * values[i]);
     const bool is_height =
-        mask[i] != 0 && !(has_nothing && values[i] == nothing) && std::abs(metres) < highest_m;
+        mask[i] != 0 && !(has_nothing && values[i] == nothing) && std::abs(metres) < max_height_m;
     grid.points[i].z = is_height ? metres : std::numeric_limits<double>::quiet_NaN();
   }
   return true;

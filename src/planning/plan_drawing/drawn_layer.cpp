@@ -23,9 +23,9 @@ constexpr double large_m2 = 2.0;
 constexpr double point_size_m = 0.25;  // of the cross of a survey point
 
 /// The parts of a model, one for each colour.
-class Sheet {
+class LayerSheet {
  public:
-  Sheet(scene::Model& model, const std::string& layer, const glm::dvec3& origin)
+  LayerSheet(scene::Model& model, const std::string& layer, const glm::dvec3& origin)
       : model_(model), layer_(layer), origin_(origin) {}
 
   void add_strip(const std::vector<glm::dvec3>& points, double width_m, glm::vec3 colour, float z) {
@@ -103,7 +103,7 @@ scene::Model layer_model(const formats::Drawing& drawing, int layer, const glm::
   model.name = drawing.layers[std::size_t(layer)].name;
   model.nodes.front().name = model.name;
   model.origin = origin;
-  Sheet sheet(model, model.name, origin);
+  LayerSheet sheet(model, model.name, origin);
   const float z = layer_rise_m * float(layer % distinct_layers);
   for (const formats::DrawingArea& area : drawing.areas)
     if (area.layer == layer) {

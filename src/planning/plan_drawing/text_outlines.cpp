@@ -14,7 +14,7 @@ namespace {
 constexpr double font_size = 100.0;                  // cairo's outlines are rounded to 1/256
 constexpr double capital_height = 0.72 * font_size;  // of which DXF gives the height
 constexpr double line_spacing = 5.0 / 3.0;           // of the height, as the DXF reference has it
-constexpr double max_height_m = 1000.0;
+constexpr double max_text_height_m = 1000.0;
 
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
@@ -83,7 +83,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 std::vector<std::vector<std::vector<glm::dvec3>>> text_outlines(const formats::DrawingText& text) {
   std::vector<std::vector<std::vector<glm::dvec3>>> placed;
-  if (!(text.height_m > 0.0 && text.height_m < max_height_m)) return placed;
+  if (!(text.height_m > 0.0 && text.height_m < max_text_height_m)) return placed;
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1), &cairo_surface_destroy);
   const Context context(cairo_create(surface.get()), &cairo_destroy);
   cairo_select_font_face(context.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
