@@ -30,7 +30,7 @@ class ObjectSurface final : public scene::TracedSurface {
     point.base_colour = glm::vec3(0.0f), point.metallic = 1.0f, point.roughness = 1.0f;
     const glm::vec3 exposed = shading::tone_unmapped(glm::clamp(glm::vec3(colour(hit)), 0.0f, 1.0f));
     point.emission = radiance_of_exposed_ * exposed;
-    point.kept_in_shadow = kept_in_shadow_of(kept_in_shadow_, model_->lit_luminance, exposed);
+    point.kept_in_shadow = shading::kept_in_shadow_of(kept_in_shadow_, model_->lit_luminance, exposed);
     return point;
   }
   float alpha(const scene::TracedHit& hit) const override { return colour(hit).w; }
