@@ -96,7 +96,7 @@ Result<scene::Model> picture_model(const std::filesystem::path& file, double uni
   return model;
 }
 
-void build(const scene::Node& node, scene::SceneBuilder& builder) {
+void build_picture(const scene::Node& node, scene::SceneBuilder& builder) {
   const std::filesystem::path file = node.file("file");
   const std::string unit = node.text("unit");
   scene::Object object;
@@ -116,6 +116,6 @@ void build(const scene::Node& node, scene::SceneBuilder& builder) {
 
 }  // namespace
 
-void add_picture_node(scene::NodeRegistry& registry) { registry.add(picture_schema(), build); }
+void add_picture_node(scene::NodeRegistry& registry) { registry.add(picture_schema(), build_picture); }
 
 }  // namespace parvis::plan_drawing
