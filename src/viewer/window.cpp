@@ -10,6 +10,7 @@
 #include "base/image_io.h"
 #include "graphics/gl/context.h"
 #include "graphics/render/picture_target.h"
+#include "house/stage/refinement.h"
 #include "house/stage/stillness.h"
 #include "reflections/methods/settings.h"
 #include "viewer/input.h"
