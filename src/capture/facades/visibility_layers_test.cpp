@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <set>
 #include <span>
 

@@ -2,6 +2,7 @@
 #include "capture/trees/shown_tree.h"
 
 #include <algorithm>
+#include <glm/gtc/constants.hpp>
 
 #include "capture/trees/tree_drawable.h"
 #include "capture/trees/tree_light.h"

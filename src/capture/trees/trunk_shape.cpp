@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <iterator>
 
 #include "capture/trees/texture_blocks.h"

@@ -15,14 +15,14 @@ namespace parvis::scene {
 namespace {
 
 constexpr std::string_view texture_element = "GeoreferencedTexture";
-constexpr std::string_view blanks = " \t\r\n";
+constexpr std::string_view blank_letters = " \t\r\n";
 constexpr std::size_t max_named = 3;  // pictures in one warning
 constexpr std::uint64_t max_world_file_bytes = 4096;
 
 std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
+  const std::size_t first = text.find_first_not_of(blank_letters);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  return text.substr(first, text.find_last_not_of(blank_letters) - first + 1);
 }
 
 /// True if the name at this place begins an element, with or without a prefix.
@@ -41,7 +41,8 @@ std::optional<std::string_view> next_text(std::string_view xml, std::string_view
   for (at = xml.find(name, at); at != std::string_view::npos; at = xml.find(name, at)) {
     const bool begins = begins_element(xml, at);
     at += name.size();
-    if (!begins || at >= xml.size() || (xml[at] != '>' && blanks.find(xml[at]) == blanks.npos)) continue;
+    if (!begins || at >= xml.size() || (xml[at] != '>' && blank_letters.find(xml[at]) == blank_letters.npos))
+      continue;
     const std::size_t opened = xml.find('>', at);
     if (opened == std::string_view::npos) break;
     const std::size_t end = xml.find('<', opened);
@@ -61,8 +62,9 @@ std::optional<std::string_view> first_text(std::string_view xml, std::string_vie
 std::vector<double> numbers_in(std::string_view text) {
   constexpr std::size_t enough = 8;
   std::vector<double> numbers;
-  for (std::size_t at = text.find_first_not_of(blanks);
-       at != std::string_view::npos && numbers.size() < enough; at = text.find_first_not_of(blanks, at)) {
+  for (std::size_t at = text.find_first_not_of(blank_letters);
+       at != std::string_view::npos && numbers.size() < enough;
+       at = text.find_first_not_of(blank_letters, at)) {
     if (text[at] == '+') ++at;
     double number = 0.0;
     const auto [end, problem] = std::from_chars(text.data() + at, text.data() + text.size(), number);

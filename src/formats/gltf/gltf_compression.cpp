@@ -23,7 +23,8 @@ constexpr std::size_t max_compressed_elements = 20'000'000;  // a hostile count 
 
 std::size_t count_in(const Json& object, const char* name) {
   const auto found = object.find(name);
-  if (found == object.end() || !found->is_number_unsigned() || found->get<std::size_t>() > max_compressed_elements * 16)
+  if (found == object.end() || !found->is_number_unsigned() ||
+      found->get<std::size_t>() > max_compressed_elements * 16)
     gltf_fail("{}: \"{}\" is missing or no sensible number", meshopt, name);
   return found->get<std::size_t>();
 }

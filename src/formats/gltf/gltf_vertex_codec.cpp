@@ -12,7 +12,7 @@
 namespace parvis::scene {
 namespace {
 
-using Bytes = std::span<const std::uint8_t>;
+using ByteView = std::span<const std::uint8_t>;
 
 constexpr std::uint8_t header = 0xa1;
 constexpr std::size_t group_size = 16, max_block_bytes = 8192, max_block = 256, min_tail = 24;
@@ -20,26 +20,26 @@ constexpr std::size_t group_size = 16, max_block_bytes = 8192, max_block = 256, 
 /// Takes bytes from the front; beyond the end there are zeros, and `has_failed` is set.
 class Input {
  public:
-  explicit Input(Bytes bytes) : bytes_(bytes) {}
+  explicit Input(ByteView bytes) : bytes_(bytes) {}
 
   bool has_failed() const { return has_failed_; }
   std::size_t left() const { return bytes_.size(); }
-  Bytes take(std::size_t count) {
+  ByteView take(std::size_t count) {
     if (count > bytes_.size()) {
       has_failed_ = true;
       return {};
     }
-    const Bytes taken = bytes_.first(count);
+    const ByteView taken = bytes_.first(count);
     bytes_ = bytes_.subspan(count);
     return taken;
   }
   std::uint8_t take() {
-    const Bytes one = take(1);
+    const ByteView one = take(1);
     return one.empty() ? std::uint8_t(0) : one.front();
   }
 
  private:
-  Bytes bytes_;
+  ByteView bytes_;
   bool has_failed_ = false;
 };
 
@@ -47,7 +47,7 @@ class Input {
 /// comes first, of others the highest.
 void take_group(Input& input, int bits, std::uint8_t* to) {
   if (bits == 0) return std::fill_n(to, group_size, std::uint8_t(0)), void();
-  const Bytes packed = input.take(group_size * std::size_t(bits) / 8);
+  const ByteView packed = input.take(group_size * std::size_t(bits) / 8);
   if (packed.empty()) return;
   if (bits == 8) return std::ranges::copy(packed, to), void();
   const unsigned escape = (1u << bits) - 1u, per_byte = 8u / unsigned(bits);
@@ -65,7 +65,7 @@ void take_column(Input& input, unsigned mode, std::size_t count, std::uint8_t* t
   if (mode == 2) return std::fill_n(to, count, std::uint8_t(0)), void();
   if (mode == 3) return std::ranges::copy(input.take(count), to), void();
   const std::size_t groups = (count + group_size - 1) / group_size;
-  const Bytes headers = input.take((groups + 3) / 4);
+  const ByteView headers = input.take((groups + 3) / 4);
   for (std::size_t g = 0; g < groups && !input.has_failed(); ++g)
     take_group(input, widths[mode + ((headers[g / 4] >> (g % 4 * 2)) & 3u)], to + g * group_size);
 }
@@ -95,9 +95,9 @@ T plus_zigzag(T value, T before) {
 
 /// A block of up to `max_block` vertices; `last` is the vertex before it, then its own last one. False where
 /// a channel is of no known kind.
-bool take_block(Input& input, std::size_t count, std::size_t stride, Bytes channels, std::uint8_t* last,
+bool take_block(Input& input, std::size_t count, std::size_t stride, ByteView channels, std::uint8_t* last,
                 std::uint8_t* to) {
-  const Bytes modes = input.take(stride / 4);
+  const ByteView modes = input.take(stride / 4);
   std::array<std::uint8_t, 4 * max_block> columns{};
   for (std::size_t k = 0; k < stride && !input.has_failed(); k += 4) {
     for (unsigned j = 0; j < 4 && !input.has_failed(); ++j)
@@ -139,13 +139,14 @@ void undo_colours(std::span<std::uint8_t> plain, std::size_t count) {
 
 }  // namespace
 
-bool is_vertex_codec_1(Bytes packed) { return !packed.empty() && packed.front() == header; }
+bool is_vertex_codec_1(ByteView packed) { return !packed.empty() && packed.front() == header; }
 
-bool decode_vertices_1(Bytes packed, std::size_t count, std::size_t stride, std::span<std::uint8_t> plain) {
+bool decode_vertices_1(ByteView packed, std::size_t count, std::size_t stride,
+                       std::span<std::uint8_t> plain) {
   const std::size_t tail = stride + stride / 4, padded_tail = std::max(tail, min_tail);
   if (packed.size() < 1 + padded_tail) return false;
   std::vector<std::uint8_t> last(packed.end() - std::ptrdiff_t(tail), packed.end());
-  const Bytes channels = Bytes(packed).last(stride / 4);
+  const ByteView channels = ByteView(packed).last(stride / 4);
   Input input(packed.subspan(1, packed.size() - 1 - padded_tail));
   const std::size_t block = std::min(max_block_bytes / stride / group_size * group_size, max_block);
   for (std::size_t first = 0; first < count; first += block) {

@@ -10,11 +10,11 @@
 namespace parvis::scene {
 namespace {
 
-constexpr std::string_view blanks = " \t\r";
+constexpr std::string_view blank_letters = " \t\r";
 
 std::string_view next_word(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(blanks));
+  line.remove_prefix(std::min(line.find_first_not_of(blank_letters), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(blank_letters));
   line.remove_prefix(word.size());
   return word;
 }
@@ -40,8 +40,8 @@ void count_obj(std::string_view bytes, const std::filesystem::path& file, FileAc
       account.left_out("statements", "they are not read", keyword);
       continue;
     }
-    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-    const std::string name(line.substr(0, line.find_last_not_of(blanks) + 1));
+    line.remove_prefix(std::min(line.find_first_not_of(blank_letters), line.size()));
+    const std::string name(line.substr(0, line.find_last_not_of(blank_letters) + 1));
     std::error_code code;
     const Result<std::filesystem::path> library = Roots(file.parent_path()).find(name, {});
     if (!library || !std::filesystem::is_regular_file(*library, code))

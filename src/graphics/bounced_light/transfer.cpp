@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <optional>
 #include <unordered_map>
 #include <utility>

@@ -1,6 +1,7 @@
 #include "graphics/lamps/nodes_lamp.h"
 
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 
 #include "base/colour.h"
 #include "graphics/light/day_light.h"

@@ -1,6 +1,7 @@
 #include "graphics/light/own_faces.h"
 
 #include <algorithm>
+#include <glm/gtc/constants.hpp>
 
 #include "base/parallel.h"
 #include "graphics/light/ray_packet.h"

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <numeric>
 
 #include "base/parallel.h"

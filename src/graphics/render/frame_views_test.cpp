@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/gtc/constants.hpp>
+
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "scene/data/test_scene.h"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/gtc/constants.hpp>
 #include <limits>
 
 #include "base/colour.h"

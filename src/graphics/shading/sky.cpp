@@ -1,6 +1,7 @@
 #include "graphics/shading/sky.h"
 
 #include <algorithm>
+#include <glm/gtc/constants.hpp>
 
 #include "base/colour.h"
 #include "base/parallel.h"

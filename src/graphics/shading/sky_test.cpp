@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/gtc/constants.hpp>
+
 #include "base/random.h"
 
 namespace parvis::shading {

@@ -14,7 +14,7 @@ namespace {
 
 using scene::add, scene::matt, scene::model_of, scene::quad;
 
-constexpr int width = 320, height = 180;
+constexpr int panels_width = 320, panels_height = 180;
 
 class TexturedPanels : public gl::ContextTest {
  protected:
@@ -30,9 +30,9 @@ class TexturedPanels : public gl::ContextTest {
     Camera camera;
     camera.world_from_camera = look_at({0, -3.139f, 1.125f}, {0, 0, 1.125f});
     camera.vertical_fov = 2.0f * std::atan(1.125f / 3.139f);
-    (*stage)->draw(camera, width, height);
+    (*stage)->draw(camera, panels_width, panels_height);
     drawn_ = (*stage)->picture();
-    const reference::TracedPicture truth = (*stage)->trace(camera, width, height, 8);
+    const reference::TracedPicture truth = (*stage)->trace(camera, panels_width, panels_height, 8);
     traced_ = shading::tone_mapped_picture(truth.radiance, (*stage)->scene().exposure);
     const Result<reference::Difference> difference = reference::compare(drawn_, traced_);
     ASSERT_TRUE(difference) << to_string(difference.errors());
@@ -43,7 +43,7 @@ class TexturedPanels : public gl::ContextTest {
   /// 'b' the other way round, 'k' where both are dark, '-' else, '!' where the pictures disagree.
   std::string colours(std::initializer_list<glm::vec2> places) const {
     const auto letter = [](const Image8& picture, glm::vec2 at) {
-      const std::uint8_t* p = picture.at(int(at.x * width), int(at.y * height));
+      const std::uint8_t* p = picture.at(int(at.x * panels_width), int(at.y * panels_height));
       if (p[0] < 30 && p[2] < 30) return 'k';
       return p[0] > 3 * p[2] ? 'r' : p[2] > 3 * p[0] ? 'b' : '-';
     };
@@ -86,7 +86,7 @@ TEST_F(TexturedPanels, ColoursOfVerticesAreInterpolatedAndMultiplyTheMaterial) {
     model.parts[0].mesh.colours.push_back(p.x < 0.0f ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 0, 1, 1));
   show(model);
   EXPECT_EQ(colours({{0.05f, 0.5f}, {0.95f, 0.5f}}), "rb");
-  const std::uint8_t* middle = drawn_.at(width / 2, height / 2);
+  const std::uint8_t* middle = drawn_.at(panels_width / 2, panels_height / 2);
   EXPECT_NEAR(middle[0], middle[2], 12);
 }
 

@@ -73,7 +73,8 @@ scene::AttributeSchema spacing_attribute(const std::string& help, double min_m) 
 std::vector<scene::AttributeSchema> circle_attributes() {
   using namespace scene::attribute;
   return {scene::visible_attribute(),
-          scene::attribute::vec3("around", "with `within`: the middle of the circle in plan where they stand; else everywhere"),
+          scene::attribute::vec3(
+              "around", "with `within`: the middle of the circle in plan where they stand; else everywhere"),
           number("within", "of `around`, in plan").in("m").between(5, 1e5)};
 }
 

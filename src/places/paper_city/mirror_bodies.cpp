@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/gtc/constants.hpp>
 #include <numbers>
 
 namespace parvis::city {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 
 #include "base/parallel.h"
 #include "reflections/reflection_search/reflection_search.h"
