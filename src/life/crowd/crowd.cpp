@@ -6,13 +6,13 @@
 namespace parvis::crowd {
 namespace {
 
-constexpr float wall_reach_m = 1.2f;   // within which walls are looked for
-constexpr float corner_m = 0.5f;       // at which a corner is reached
-constexpr float own_lean_m = 0.7f;     // corners are passed wider by up to it
-constexpr float queue_lean_m = 0.4f;   // and by so much more at each look around in a queue
-constexpr float queue_speed = 0.6f;    // of the free speed
-constexpr std::uint32_t turns = 4;     // a part of the people looks about anew in each step
-constexpr float lost_s = 4.0f;         // blocked for so long: another way is sought
+constexpr float wall_reach_m = 1.2f;  // within which walls are looked for
+constexpr float corner_m = 0.5f;      // at which a corner is reached
+constexpr float own_lean_m = 0.7f;    // corners are passed wider by up to it
+constexpr float queue_lean_m = 0.4f;  // and by so much more at each look around in a queue
+constexpr float queue_speed = 0.6f;   // of the free speed
+constexpr std::uint32_t turns = 4;    // a part of the people looks about anew in each step
+constexpr float lost_s = 4.0f;        // blocked for so long: another way is sought
 // Weidmann 1993: horizontal speeds on stairs.
 constexpr float stair_slope = 0.35f, up_m_s = 0.61f, down_m_s = 0.694f;
 
@@ -58,8 +58,8 @@ bool Crowd::send(std::size_t person, int destination, float waits_s) {
   const glm::vec2 from = walkers_.position[person];
   const Destination& to = destinations_[std::size_t(destination)];
   const glm::vec2 on_line = nearest_on_segment(to.a, to.b, from);
-  const std::optional<Way> way = mesh_.way(glm::vec3(from, walkers_.height_m[person]),
-                                           glm::vec3(on_line, 0.5f * (to.a.z + to.b.z)));
+  const std::optional<Way> way =
+      mesh_.way(glm::vec3(from, walkers_.height_m[person]), glm::vec3(on_line, 0.5f * (to.a.z + to.b.z)));
   if (!way) return false;
   PersonOnTheWay& it = people_[person];
   it.destination = destination, it.has_arrived = false, it.waits_s = waits_s;
@@ -95,7 +95,8 @@ void Crowd::follow_way(std::size_t person) {
   const glm::vec2 here = walkers_.position[person];
   while (it.corner + 1 < it.way.size()) {
     const glm::vec2 corner = it.way[it.corner], next = it.way[it.corner + 1];
-    const bool is_there = glm::distance(here, target_of(person)) < corner_m || glm::distance(here, corner) < corner_m;
+    const bool is_there =
+        glm::distance(here, target_of(person)) < corner_m || glm::distance(here, corner) < corner_m;
     if (!is_there && walls_.crosses(here, next, walkers_.height_m[person])) break;
     ++it.corner;
     it.lean_m = own_lean_m * fraction_of(it.number, 1);

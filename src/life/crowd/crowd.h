@@ -1,4 +1,5 @@
-// People on their ways: each has a destination, walks there over the navigation mesh among the others, and arrives.
+// People on their ways: each has a destination, walks there over the navigation mesh among the others, and
+// arrives.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,8 +12,8 @@
 
 namespace parvis::crowd {
 
-/// A line that people walk to and arrive at anywhere along it: a door, the end of a street. A point where both ends
-/// are one.
+/// A line that people walk to and arrive at anywhere along it: a door, the end of a street. A point where
+/// both ends are one.
 struct Destination {
   glm::vec3 a{0.0f}, b{0.0f};
   float reach_m = 0.45f;  ///< from the line, at which they have arrived
@@ -20,15 +21,15 @@ struct Destination {
 
 /// What is known of a person beside the arrays of Walkers.
 struct PersonOnTheWay {
-  std::uint32_t number = 0;       ///< unique in the crowd; the person's own random numbers follow from it
-  int destination = -1;           ///< index of the crowd's; -1: stands
-  float waits_s = 0.0f;           ///< until the person sets off
-  float slope = 0.0f;             ///< of the ground in the walking direction
+  std::uint32_t number = 0;  ///< unique in the crowd; the person's own random numbers follow from it
+  int destination = -1;      ///< index of the crowd's; -1: stands
+  float waits_s = 0.0f;      ///< until the person sets off
+  float slope = 0.0f;        ///< of the ground in the walking direction
   bool has_arrived = false;
-  float own_speed = 1.34f;        ///< on level ground with nobody in the way, m/s
-  float lean_m = 0.0f;            ///< by which corners are passed wider
+  float own_speed = 1.34f;  ///< on level ground with nobody in the way, m/s
+  float lean_m = 0.0f;      ///< by which corners are passed wider
   Way way = {};
-  std::size_t corner = 0;         ///< of the way, that is walked to
+  std::size_t corner = 0;  ///< of the way, that is walked to
 };
 
 /// A crowd on one mesh. All that happens follows from its seed and the calls.
@@ -39,8 +40,8 @@ class Crowd {
 
   /// Adds a destination; returns its index.
   int add(const Destination& destination);
-  /// Adds a person at a place of the mesh; returns the index. Nothing where the place is not on the mesh, or no way leads to
-  /// the destination.
+  /// Adds a person at a place of the mesh; returns the index. Nothing where the place is not on the mesh, or
+  /// no way leads to the destination.
   std::optional<std::size_t> add(glm::vec3 where, int destination, float speed, float radius_m,
                                  float waits_s = 0.0f);
   /// Sends a person elsewhere, who sets off in `waits_s`. False where no way leads there.

@@ -22,19 +22,25 @@ std::vector<std::string> person_names(const Node& node) {
 
 scene::NodeSchema crowd_schema() {
   return {.type = "crowd",
-          .help = "People who walk on the scene's ground, over pavements rather than roads, up and down steps, round what stands "
-                  "in their way. Its models are skinned people whose first animation is a cycle of walking on the spot; they look "
-                  "along x and stand on z = 0 (turn them with heading_deg). They are called \"person 1\", \"person 2\", ...: "
-                  "cameras can follow them.",
-          .attributes = {text("name", "by which other nodes refer to it; %crowd does, too"),
-                         integer("people", "how many").between(0, 20'000).required(),
-                         integer("seed", "the same seed gives the same people").from(0).by_default("1"),
-                         vec3("centre", "of the part of the place in which they walk").in("m").by_default("0 0 0"),
-                         number("radius", "of that part").in("m").between(5, 2000).by_default("80"),
-                         scene::visible_attribute()},
-          .example = "crowd(people=60, seed=3, centre=\"40 -20 0\", radius=90) {\n"
-                     "  model(file=\"people/walker.glb\", heading_deg=-90)\n"
-                     "}",
+          .help =
+              "People who walk on the scene's ground, over pavements rather than roads, up and down steps, "
+              "round what stands "
+              "in their way. Its models are skinned people whose first animation is a cycle of walking on "
+              "the spot; they look "
+              "along x and stand on z = 0 (turn them with heading_deg). They are called \"person 1\", "
+              "\"person 2\", ...: "
+              "cameras can follow them.",
+          .attributes =
+              {text("name", "by which other nodes refer to it; %crowd does, too"),
+               integer("people", "how many").between(0, 20'000).required(),
+               integer("seed", "the same seed gives the same people").from(0).by_default("1"),
+               vec3("centre", "of the part of the place in which they walk").in("m").by_default("0 0 0"),
+               number("radius", "of that part").in("m").between(5, 2000).by_default("80"),
+               scene::visible_attribute()},
+          .example =
+              "crowd(people=60, seed=3, centre=\"40 -20 0\", radius=90) {\n"
+              "  model(file=\"people/walker.glb\", heading_deg=-90)\n"
+              "}",
           .is_unique = true,
           .is_laid_out_once = true,
           .names_made = person_names};
@@ -58,7 +64,8 @@ void build_crowd(const Node& node, SceneBuilder& builder, const formats::Readers
       builder.fail(person.errors(), kind.where);
   }
   if (demand.people > 0 && demand.models.empty() && builder.errors().empty())
-    builder.fail(error_at(node.where, "crowd: no model says how its people look; add model(file=...) of a person who walks"));
+    builder.fail(error_at(
+        node.where, "crowd: no model says how its people look; add model(file=...) of a person who walks"));
   builder.scene.data<CrowdDemand>() = std::move(demand);
 }
 

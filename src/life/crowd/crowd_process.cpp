@@ -12,12 +12,14 @@ namespace {
 
 constexpr int clock_steps = 6;  // of action::step_s, for one step of the crowd
 constexpr float crowd_step_s = float(double(clock_steps) * action::step_s);
-constexpr int destinations = 64;        // places that people walk between
-constexpr int tries_per_person = 12;    // to find a place from which a way leads on
-constexpr int warm_up_steps = 200;      // all start at rest
-constexpr float mean_speed = 1.34f, speed_deviation = 0.26f, least_speed = 0.6f, max_speed = 2.0f;  // Weidmann 1993
-constexpr float longest_rest_s = 12.0f, resting = 0.35f;  // the fraction of arrivals after which somebody rests
-constexpr float turn_rate = 5.0f;       // radians per second
+constexpr int destinations = 64;      // places that people walk between
+constexpr int tries_per_person = 12;  // to find a place from which a way leads on
+constexpr int warm_up_steps = 200;    // all start at rest
+constexpr float mean_speed = 1.34f, speed_deviation = 0.26f, least_speed = 0.6f,
+                max_speed = 2.0f;  // Weidmann 1993
+constexpr float longest_rest_s = 12.0f,
+                resting = 0.35f;   // the fraction of arrivals after which somebody rests
+constexpr float turn_rate = 5.0f;  // radians per second
 constexpr float shoulders_m = 0.21f, shoulder_range_m = 0.03f;
 
 /// A normal deviate by twelve uniform ones: bounded, and the same on every machine.
@@ -35,7 +37,9 @@ int CrowdProcess::new_destination(Random& random) { return random.index(int(crow
 
 void CrowdProcess::populate(const CrowdDemand& demand) {
   Random places(demand.seed);
-  const auto somewhere = [&] { return crowd_->mesh().place(places.uniform(), places.uniform(), places.uniform()); };
+  const auto somewhere = [&] {
+    return crowd_->mesh().place(places.uniform(), places.uniform(), places.uniform());
+  };
   for (int d = 0; d < destinations; ++d) {
     const glm::vec3 place = somewhere();
     crowd_->add(Destination{place, place, 0.8f});
@@ -59,9 +63,11 @@ void CrowdProcess::populate(const CrowdDemand& demand) {
     shown_.push_back(shown), randoms_.push_back(random);
   }
   if (missing > 0)
-    warn(error("crowd: {} of {} people found no place from which a way leads on; a larger radius, or another centre, "
-               "gives more",
-               missing, demand.people));
+    warn(
+        error("crowd: {} of {} people found no place from which a way leads on; a larger radius, or another "
+              "centre, "
+              "gives more",
+              missing, demand.people));
 }
 
 void CrowdProcess::begin(scene::Scene& scene, action::SharedByProcesses&) {
@@ -92,7 +98,8 @@ void CrowdProcess::walk() {
   for (std::size_t p = 0; p < shown_.size(); ++p) {
     if (!crowd_->people()[p].has_arrived) continue;
     Random& random = randoms_[p];
-    crowd_->send(p, new_destination(random), random.chance(resting) ? random.uniform(1.0f, longest_rest_s) : 0.0f);
+    crowd_->send(p, new_destination(random),
+                 random.chance(resting) ? random.uniform(1.0f, longest_rest_s) : 0.0f);
   }
   crowd_->step(crowd_step_s, vehicles_);
   const Walkers& walkers = crowd_->walkers();
@@ -106,7 +113,8 @@ void CrowdProcess::walk() {
     constexpr float least_turning_speed = 0.15f;  // who is pushed about does not turn round
     const glm::vec2 towards = speed > least_turning_speed ? velocity : walkers.aim[p];
     if (towards == glm::vec2(0.0f)) continue;
-    const float turn = wrapped(std::atan2(towards.y, towards.x) - it.heading), most = turn_rate * crowd_step_s;
+    const float turn = wrapped(std::atan2(towards.y, towards.x) - it.heading),
+                most = turn_rate * crowd_step_s;
     it.heading += std::clamp(turn, -most, most);
   }
 }
@@ -123,7 +131,8 @@ void CrowdProcess::present(scene::Scene& scene, double ahead_s) {
     scene::Object& object = scene.objects[it.object];
     const glm::vec3 place = glm::mix(it.before, it.now, part);
     const float heading = it.heading_before + part * (it.heading - it.heading_before);
-    object.world_from_model = glm::rotate(glm::translate(glm::mat4(1.0f), place), heading, glm::vec3(0, 0, 1));
+    object.world_from_model =
+        glm::rotate(glm::translate(glm::mat4(1.0f), place), heading, glm::vec3(0, 0, 1));
     const double walked_m = it.walked_before_m + double(part) * (it.walked_m - it.walked_before_m);
     object.played.start_s = walked_m / double(it.model->cycle_m) * double(it.model->cycle_s);
   }

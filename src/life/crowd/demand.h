@@ -13,7 +13,8 @@ namespace parvis::crowd {
 /// What the node `crowd` says.
 struct CrowdDemand {
   static constexpr std::string_view name = "crowd.demand";
-  static constexpr scene::DataRole role = scene::DataRole::settings;  // pictures show the people, which are objects
+  static constexpr scene::DataRole role =
+      scene::DataRole::settings;  // pictures show the people, which are objects
   int people = 0;
   std::uint64_t seed = 1;
   glm::vec2 centre{0.0f};

@@ -8,7 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+
+#include "base/disjoint_sets.h"
 
 namespace parvis::crowd {
 namespace {
@@ -46,10 +47,14 @@ unsigned char area_of(const WalkingGround& ground, std::size_t triangle, float l
   const float length = glm::length(normal);
   if (!(length > 0.0f) || std::abs(normal.z) < least_up * length) return RC_NULL_AREA;
   switch (ground.kinds[triangle]) {
-    case GroundKind::floor: return floor_area;
-    case GroundKind::road: return road_area;
-    case GroundKind::crossing: return crossing_area;
-    case GroundKind::obstacle: break;
+    case GroundKind::floor:
+      return floor_area;
+    case GroundKind::road:
+      return road_area;
+    case GroundKind::crossing:
+      return crossing_area;
+    case GroundKind::obstacle:
+      break;
   }
   return RC_NULL_AREA;
 }
@@ -109,7 +114,8 @@ TileBytes make_tile(const WalkingGround& ground, std::span<const std::uint32_t> 
   const int headroom = int(std::ceil(options.headroom_m / cell_height_m));
 
   Heightfield solid(rcAllocHeightfield());
-  if (!rcCreateHeightfield(&context, *solid, side, side, from.data(), to.data(), options.cell_m, cell_height_m))
+  if (!rcCreateHeightfield(&context, *solid, side, side, from.data(), to.data(), options.cell_m,
+                           cell_height_m))
     return {};
   rcRasterizeTriangles(&context, vertices.data(), int(vertices.size() / 3), indices.data(), areas.data(),
                        int(areas.size()), *solid, climb_cells);
@@ -128,8 +134,8 @@ TileBytes make_tile(const WalkingGround& ground, std::span<const std::uint32_t> 
   Details details(rcAllocPolyMeshDetail());
   constexpr float max_edge_error_cells = 1.1f, detail_distance_cells = 8.0f, detail_error_m = 0.08f;
   if (!rcBuildContours(&context, *compact, max_edge_error_cells, int(12.0f / options.cell_m), *contours) ||
-      contours->nconts == 0 ||
-      !rcBuildPolyMesh(&context, *contours, corners_per_polygon, *polygons) || polygons->npolys == 0 ||
+      contours->nconts == 0 || !rcBuildPolyMesh(&context, *contours, corners_per_polygon, *polygons) ||
+      polygons->npolys == 0 ||
       !rcBuildPolyMeshDetail(&context, *polygons, *compact, detail_distance_cells * options.cell_m,
                              detail_error_m, *details))
     return {};
@@ -164,6 +170,11 @@ struct NavMesh::Data {
   struct Piece {
     glm::vec3 a, b, c;
     float area_before;  ///< of all pieces before it, m2
+
+    float area() const {
+      const glm::vec2 u = b - a, v = c - a;
+      return 0.5f * std::abs(u.x * v.y - u.y * v.x);
+    }
   };
   std::vector<Piece> pieces;
   float area = 0.0f;
@@ -204,24 +215,48 @@ void NavMesh::Data::make(const WalkingGround& ground, glm::ivec2 first, glm::ive
 }
 
 void NavMesh::Data::measure() {
-  pieces.clear();
-  area = 0.0f;
+  // Floors inside closed buildings are walkable, too, but nobody gets there: the widest ground that hangs
+  // together counts.
   const dtNavMesh& tiles_of = *mesh;
+  std::vector<std::size_t> first(std::size_t(tiles_of.getMaxTiles()) + 1, 0);
   for (int i = 0; i < tiles_of.getMaxTiles(); ++i) {
     const dtMeshTile* tile = tiles_of.getTile(i);
-    if (!tile->header) continue;
-    for (int p = 0; p < tile->header->polyCount; ++p) {
+    first[std::size_t(i) + 1] =
+        first[std::size_t(i)] + (tile->header ? std::size_t(tile->header->polyCount) : 0);
+  }
+  DisjointSets sets(first.back());
+  std::vector<std::vector<Piece>> pieces_of(first.back());
+  std::vector<float> areas(first.back(), 0.0f);
+  for (int i = 0; i < tiles_of.getMaxTiles(); ++i) {
+    const dtMeshTile* tile = tiles_of.getTile(i);
+    for (int p = 0; tile->header && p < tile->header->polyCount; ++p) {
+      const std::size_t number = first[std::size_t(i)] + std::size_t(p);
       const dtPoly& polygon = tile->polys[p];
+      for (unsigned link = polygon.firstLink; link != DT_NULL_LINK; link = tile->links[link].next) {
+        unsigned salt = 0, other_tile = 0, other = 0;
+        tiles_of.decodePolyId(tile->links[link].ref, salt, other_tile, other);
+        sets.join(number, first[other_tile] + other);
+      }
       if (polygon.getArea() == road_area) continue;  // nobody stays on it
       const auto at = [&](int c) { return to_house(tile->verts + 3 * std::size_t(polygon.verts[c])); };
       for (int c = 2; c < polygon.vertCount; ++c) {
-        const Piece piece{at(0), at(c - 1), at(c), area};
-        const glm::vec2 u = piece.b - piece.a, v = piece.c - piece.a;
-        area += 0.5f * std::abs(u.x * v.y - u.y * v.x);
-        pieces.push_back(piece);
+        pieces_of[number].push_back({at(0), at(c - 1), at(c), 0.0f});
+        areas[number] += pieces_of[number].back().area();
       }
     }
   }
+  pieces.clear(), area = 0.0f;
+  if (areas.empty()) return;
+  std::vector<float> of_set(first.back(), 0.0f);
+  for (std::size_t n = 0; n < areas.size(); ++n) of_set[sets.root(n)] += areas[n];
+  const auto widest = std::size_t(std::ranges::max_element(of_set) - of_set.begin());
+  for (std::size_t n = 0; n < areas.size(); ++n)
+    if (sets.root(n) == widest)
+      for (Piece piece : pieces_of[n]) {
+        piece.area_before = area;
+        area += piece.area();
+        pieces.push_back(piece);
+      }
 }
 
 std::optional<std::pair<dtPolyRef, glm::vec3>> NavMesh::Data::find(glm::vec3 p, float reach_m,
@@ -229,7 +264,8 @@ std::optional<std::pair<dtPolyRef, glm::vec3>> NavMesh::Data::find(glm::vec3 p, 
   const std::array<float, 3> centre = to_recast(p), extents{reach_m, reach_z_m, reach_m};
   dtPolyRef polygon = 0;
   std::array<float, 3> nearest{};
-  if (dtStatusFailed(query->findNearestPoly(centre.data(), extents.data(), &filter, &polygon, nearest.data())) ||
+  if (dtStatusFailed(
+          query->findNearestPoly(centre.data(), extents.data(), &filter, &polygon, nearest.data())) ||
       polygon == 0)
     return std::nullopt;
   return std::pair(polygon, to_house(nearest.data()));
@@ -274,9 +310,11 @@ Result<NavMesh> NavMesh::create(const WalkingGround& ground, const NavMeshOption
   data->filter.setAreaCost(floor_area, 1.0f);
   data->make(ground, glm::ivec2(0), data->tiles - 1);
   NavMesh mesh(std::move(data));
-  if (mesh.polygon_count() == 0)
-    return error("nobody can walk anywhere: all ground is steeper than {:.0f} degrees, narrower than a body or covered",
-                 options.max_slope_deg);
+  if (mesh.area_m2() <= 0.0f)
+    return error(
+        "nobody can walk anywhere: all ground is steeper than {:.0f} degrees, narrower than a body or "
+        "covered",
+        options.max_slope_deg);
   return mesh;
 }
 
@@ -302,8 +340,9 @@ std::optional<Way> NavMesh::way(glm::vec3 from, glm::vec3 to) const {
     return std::nullopt;
   std::vector<float> corners(3 * max_corners);
   int corner_count = 0;
-  if (dtStatusFailed(data_->query->findStraightPath(a.data(), b.data(), polygons.data(), count, corners.data(),
-                                                    nullptr, nullptr, &corner_count, int(max_corners), 0)))
+  if (dtStatusFailed(data_->query->findStraightPath(a.data(), b.data(), polygons.data(), count,
+                                                    corners.data(), nullptr, nullptr, &corner_count,
+                                                    int(max_corners), 0)))
     return std::nullopt;
   Way way;
   for (int c = 0; c < corner_count; ++c) way.push_back(to_house(&corners[3 * std::size_t(c)]));
@@ -342,7 +381,8 @@ std::vector<Wall> NavMesh::borders() const {
       const dtPoly& polygon = tile->polys[p];
       for (int e = 0; e < polygon.vertCount; ++e) {
         const glm::vec3 a = to_house(tile->verts + 3 * std::size_t(polygon.verts[e])),
-                        b = to_house(tile->verts + 3 * std::size_t(polygon.verts[(e + 1) % polygon.vertCount]));
+                        b = to_house(tile->verts +
+                                     3 * std::size_t(polygon.verts[(e + 1) % polygon.vertCount]));
         if (polygon.neis[e] == 0) {
           add(a, b);
         } else if ((polygon.neis[e] & DT_EXT_LINK) != 0) {
@@ -367,13 +407,5 @@ std::vector<Wall> NavMesh::borders() const {
 }
 
 float NavMesh::area_m2() const { return data_->area; }
-
-std::size_t NavMesh::polygon_count() const {
-  std::size_t count = 0;
-  const dtNavMesh& mesh = *data_->mesh;
-  for (int i = 0; i < mesh.getMaxTiles(); ++i)
-    if (const dtMeshTile* tile = mesh.getTile(i); tile->header) count += std::size_t(tile->header->polyCount);
-  return count;
-}
 
 }  // namespace parvis::crowd

@@ -1,9 +1,11 @@
-// Where people can walk, and the way from one place to another: a navigation mesh (Recast) and searches through it (Detour).
+// Where people can walk, and the way from one place to another: a navigation mesh (Recast) and searches
+// through it (Detour).
 //
-// Recast measures heights in cells from the lowest point of its input, so that whether a kerb counts as a step may change
-// with what lies below it. Here the cells are those of one lattice of the world, and the climb has a margin of a cell: steps up to
-// 0.2 m connect and steps from 0.31 m on do not, at every level of the street. The mesh is made of tiles: memory is
-// bounded by the tile, and an edit makes anew those that it touches.
+// Recast measures heights in cells from the lowest point of its input, so that whether a kerb counts as a
+// step may change with what lies below it. Here the cells are those of one lattice of the world, and the
+// climb has a margin of a cell: steps up to 0.2 m connect and steps from 0.31 m on do not, at every level of
+// the street. The mesh is made of tiles: memory is bounded by the tile, and an edit makes anew those that it
+// touches.
 #pragma once
 
 #include <cstdint>
@@ -41,11 +43,11 @@ struct WalkingGround {
 
 /// How the mesh is made.
 struct NavMeshOptions {
-  float cell_m = 0.12f;        ///< of the raster, in plan
-  float body_radius_m = 0.24f; ///< the mesh ends so far from walls
+  float cell_m = 0.12f;         ///< of the raster, in plan
+  float body_radius_m = 0.24f;  ///< the mesh ends so far from walls
   float headroom_m = 1.9f;
   float max_slope_deg = 40.0f;
-  float road_cost = 6.0f;      ///< of a metre of road against one of pavement
+  float road_cost = 6.0f;  ///< of a metre of road against one of pavement
 };
 
 /// A way as corners to be walked to one after the other; the first is the start.
@@ -54,26 +56,28 @@ using Way = std::vector<glm::vec3>;
 /// Where people can walk.
 class NavMesh {
  public:
-  /// Errors: no triangle, or none on which anybody can walk; more than 16 km from side to side or 400 m in height within a
-  /// tile; positions that are not finite.
+  /// Errors: no triangle, or none on which anybody can walk; more than 16 km from side to side or 400 m in
+  /// height within a tile; positions that are not finite.
   static Result<NavMesh> create(const WalkingGround& ground, const NavMeshOptions& options = {});
   NavMesh(NavMesh&&) noexcept;
   NavMesh& operator=(NavMesh&&) noexcept;
   ~NavMesh();
 
-  /// The shortest way by cost. Nothing where start or goal lies farther than a metre from the mesh, or there is no way.
+  /// The shortest way by cost. Nothing where start or goal lies farther than a metre from the mesh, or there
+  /// is no way.
   std::optional<Way> way(glm::vec3 from, glm::vec3 to) const;
-  /// Makes the tiles anew that the box from `low` to `high` (in plan) touches, from what `ground` holds there now.
+  /// Makes the tiles anew that the box from `low` to `high` (in plan) touches, from what `ground` holds there
+  /// now.
   void update(const WalkingGround& ground, glm::vec2 low, glm::vec2 high);
   /// The place on the mesh nearest to `p`, within `reach_m` in plan; nothing where there is none.
   std::optional<glm::vec3> nearest(glm::vec3 p, float reach_m = 1.0f) const;
-  /// A place on the mesh, all of its area alike, from two numbers in 0..1 and one that picks the polygon.
+  /// A place beside roads on the widest ground that hangs together, all of its area alike, by three numbers
+  /// in 0..1.
   glm::vec3 place(float pick, float u, float v) const;
 
   /// The borders of the mesh: where the middles of bodies may not pass.
   std::vector<Wall> borders() const;
-  float area_m2() const;                     ///< of the mesh in plan
-  std::size_t polygon_count() const;
+  float area_m2() const;  ///< of that ground, in plan
 
  private:
   struct Data;

@@ -20,8 +20,8 @@ Result<PersonModel> person_model(std::shared_ptr<const scene::Model> model) {
   const scene::Animation& walk = model->animations.front();
   const float height = scene::bounds(*model).max.z;
   const std::size_t nodes = model->nodes.size();
-  std::vector<float> front(nodes, -std::numeric_limits<float>::max()), rear(nodes, std::numeric_limits<float>::max()),
-      mean_z(nodes, 0.0f);
+  std::vector<float> front(nodes, -std::numeric_limits<float>::max()),
+      rear(nodes, std::numeric_limits<float>::max()), mean_z(nodes, 0.0f);
   for (int s = 0; s < samples; ++s) {
     const std::vector<glm::mat4> pose =
         scene::pose_at(*model, walk, walk.duration_s * float(s) / float(samples));
@@ -36,7 +36,8 @@ Result<PersonModel> person_model(std::shared_ptr<const scene::Model> model) {
     if (mean_z[n] < foot_fraction * height) step_m = std::max(step_m, front[n] - rear[n]);
   if (step_m < least_step_m)
     return error(
-        "a person's model does not walk in its animation \"{}\": nothing near the ground moves forward and back along "
+        "a person's model does not walk in its animation \"{}\": nothing near the ground moves forward and "
+        "back along "
         "its x axis; turn it with heading_deg, or export a cycle of walking on the spot",
         walk.name);
   return PersonModel{std::move(model), 0, 2.0f * step_m, walk.duration_s};

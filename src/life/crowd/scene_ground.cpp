@@ -38,8 +38,8 @@ void add_lane(const scene::Lane& lane, glm::vec2 centre, float radius_m, Walking
     const glm::vec3 a = lane.points[i], b = lane.points[i + 1];
     const int pieces = std::max(1, int(std::ceil(glm::distance(a, b) / max_strip_m)));
     for (int k = 0; k < pieces; ++k) {
-      const RoadStrip strip{glm::mix(a, b, float(k) / float(pieces)), glm::mix(a, b, float(k + 1) / float(pieces)),
-                            lane.width_m};
+      const RoadStrip strip{glm::mix(a, b, float(k) / float(pieces)),
+                            glm::mix(a, b, float(k + 1) / float(pieces)), lane.width_m};
       if (glm::distance(glm::vec2(strip.a), centre) < radius_m) ground.roads.push_back(strip);
     }
   }

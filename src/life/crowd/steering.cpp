@@ -9,18 +9,19 @@
 namespace parvis::crowd {
 namespace {
 
-constexpr float reach_m = 3.6f;                  // within which others are seen
-constexpr float near_cell_m = 1.8f;              // half of it: two rings of cells
-constexpr int max_cells_per_side = 1024;         // beyond that cells grow
-constexpr float storey_m = 1.6f;                 // whose ground is farther above or below is on another level
-constexpr std::size_t max_walls = 5;             // that are cleared at once
-constexpr float max_behind_m = 0.6f;      // a wall; who is farther behind it belongs to another one
-constexpr int separations = 3;                   // rounds of pushing apart
+constexpr float reach_m = 3.6f;           // within which others are seen
+constexpr float near_cell_m = 1.8f;       // half of it: two rings of cells
+constexpr int max_cells_per_side = 1024;  // beyond that cells grow
+constexpr float storey_m = 1.6f;          // whose ground is farther above or below is on another level
+constexpr std::size_t max_walls = 5;      // that are cleared at once
+constexpr float max_behind_m =
+    0.22f;                      // a wall; who is farther behind it stands on the ground of its other side
+constexpr int separations = 3;  // rounds of pushing apart
 constexpr float slow = 0.2f, patience_s = 1.0f;  // of the free speed; until somebody is blocked
 constexpr float free_way_m = 1e9f;
-constexpr float along_horizon_s = 0.4f;  // for which those are cleared who walk the same way
-constexpr float content = 0.9f;                  // of the free speed: no other way is sought
-constexpr float reluctance = 1.08f;              // to turn: by so much another way must be faster
+constexpr float along_horizon_s = 0.4f;                 // for which those are cleared who walk the same way
+constexpr float content = 0.9f;                         // of the free speed: no other way is sought
+constexpr float reluctance = 1.08f;                     // to turn: by so much another way must be faster
 constexpr std::array turns = {0.3f, 0.6f, 1.0f, 1.5f};  // radians from the aim
 constexpr float widest_turn = 0.7f;                     // of who is not blocked
 constexpr float blocked_gain = 0.5f;                    // of getting on at all, for who is
@@ -68,8 +69,8 @@ void Steering::sort(const Walkers& walkers) {
   }
   for (std::size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
   for (std::size_t i = 0; i < count; ++i)
-    sorted_[starts_[cells_[i]]++] = {walkers.position[i], walkers.velocity[i], walkers.aim[i], walkers.height_m[i],
-                                     walkers.radius_m[i], std::uint32_t(i)};
+    sorted_[starts_[cells_[i]]++] = {walkers.position[i], walkers.velocity[i], walkers.aim[i],
+                                     walkers.height_m[i], walkers.radius_m[i], std::uint32_t(i)};
   // Each start now is that of the next cell.
   for (std::size_t c = starts_.size() - 1; c > 0; --c) starts_[c] = starts_[c - 1];
   starts_[0] = 0;
@@ -112,11 +113,11 @@ Steering::Around Steering::look_around(std::size_t number) const {
     const glm::vec2 to = other.position - self.position;
     around.x[n] = to.x, around.y[n] = to.y;
     around.bodies[n] = self.radius_m + other.radius_m;
-    around.room[n] =
-        std::max(std::sqrt(found[n].distance_2) - rules_.headway_body * around.bodies[n], 0.0f);
+    around.room[n] = std::max(std::sqrt(found[n].distance_2) - rules_.headway_body * around.bodies[n], 0.0f);
     around.index[n] = found[n].index;
     // Of two who are in each other's way one goes first.
-    const float before_it = -glm::dot(to, other.aim), beside_it = std::abs(to.x * other.aim.y - to.y * other.aim.x);
+    const float before_it = -glm::dot(to, other.aim),
+                beside_it = std::abs(to.x * other.aim.y - to.y * other.aim.x);
     const bool blocks_it = before_it > 0.0f && beside_it < rules_.headway_width * around.bodies[n];
     if (blocks_it && self.index < other.index) around.room[n] = free_way_m;
   }
@@ -124,7 +125,8 @@ Steering::Around Steering::look_around(std::size_t number) const {
 }
 
 float Steering::speed_along(glm::vec2 way, float free_speed, const Around& around) const {
-  // Numbers of at least zero are ordered as their bits are, and a minimum of whole numbers is a vector instruction.
+  // Numbers of at least zero are ordered as their bits are, and a minimum of whole numbers is a vector
+  // instruction.
   constexpr std::int32_t free_way = std::bit_cast<std::int32_t>(free_way_m);
   std::int32_t least = free_way;
   for (std::size_t n = 0; n < Around::lanes; ++n) {
@@ -175,7 +177,7 @@ glm::vec2 Steering::steered(const Walkers& walkers, std::size_t number, const Wa
     const Wall& wall = walls.all()[w];
     if (self.height_m < wall.bottom_m - 0.1f || self.height_m > wall.top_m) continue;
     const std::optional<WallContact> contact = contact_with(wall, self.position);
-    if (!contact || std::abs(contact->distance_m) > wall_reach) continue;
+    if (!contact || contact->distance_m > wall_reach || contact->distance_m < -max_behind_m) continue;
     planes[used++] = clear_of_wall(contact->inward, contact->distance_m, rules_.wall_horizon_s, step_s);
     if (used == max_walls) break;
   }

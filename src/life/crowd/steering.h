@@ -50,7 +50,7 @@ struct SteeringRules {
   float headway_s = 1.1f;        ///< to the person ahead, beyond touching; see above
   float headway_body =
       0.86f;  ///< of both radii that counts as touching there: people stand closer behind one another
-  float headway_width = 0.8f;    ///< of both radii: who is farther beside the way is not ahead
+  float headway_width = 0.8f;     ///< of both radii: who is farther beside the way is not ahead
   float max_acceleration = 3.0f;  ///< m/s2
 };
 
@@ -68,14 +68,14 @@ class Steering {
     std::uint32_t index;  ///< in sorted order
     float distance_2;
   };
-  /// The nearest others as one person sees them: an array for each number, so that a search through all of them is a
-  /// few vector instructions. Elements beyond `count` block nobody.
+  /// The nearest others as one person sees them: an array for each number, so that a search through all of
+  /// them is a few vector instructions. Elements beyond `count` block nobody.
   struct Around {
     static constexpr int lanes = 12;  ///< max_neighbours, rounded up to whole vectors
     int count = 0;
-    std::array<float, lanes> x, y;    ///< from the person, metres
-    std::array<float, lanes> bodies;  ///< the sum of both radii
-    std::array<float, lanes> room;    ///< to the other one, by SteeringRules::headway_body
+    std::array<float, lanes> x, y;                    ///< from the person, metres
+    std::array<float, lanes> bodies;                  ///< the sum of both radii
+    std::array<float, lanes> room;                    ///< to the other one, by SteeringRules::headway_body
     std::array<std::uint32_t, max_neighbours> index;  ///< in sorted order
   };
   /// A person where neighbours are sought: in the order of cells.

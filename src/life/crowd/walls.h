@@ -19,8 +19,8 @@ struct WallContact {
   glm::vec2 inward{0.0f};   ///< unit vector, away from the wall
   float distance_m = 0.0f;  ///< negative behind it
 };
-/// Nothing where the place lies before or beyond the wall's ends: else a corner, passed at no distance, would stop who
-/// walks along the wall that ends there.
+/// Nothing where the place lies before or beyond the wall's ends: else a corner, passed at no distance, would
+/// stop who walks along the wall that ends there.
 std::optional<WallContact> contact_with(const Wall& wall, glm::vec2 place);
 
 /// The point of a segment nearest to `p`.
