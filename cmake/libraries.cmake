@@ -37,6 +37,14 @@ add_library(parvis_osmium INTERFACE)
 target_link_libraries(parvis_osmium INTERFACE EXPAT::EXPAT ZLIB::ZLIB Threads::Threads)
 target_include_directories(parvis_osmium SYSTEM INTERFACE ${osmium_headers} ${protozero_headers})
 
+# Recast brings no configuration.
+find_library(recast_library Recast REQUIRED)
+find_library(detour_library Detour REQUIRED)
+find_path(recast_headers Recast.h PATH_SUFFIXES recastnavigation REQUIRED)
+add_library(parvis_recast INTERFACE)
+target_link_libraries(parvis_recast INTERFACE ${recast_library} ${detour_library})
+target_include_directories(parvis_recast SYSTEM INTERFACE ${recast_headers})
+
 # IFC++ brings no configuration; its geometry, in headers, uses the CSG library carve.
 find_library(ifc_library IfcPlusPlus REQUIRED)
 find_library(carve_library carve REQUIRED)

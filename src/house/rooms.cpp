@@ -14,6 +14,7 @@
 #include "graphics/light/room.h"
 #include "graphics/lit_objects/room.h"
 #include "graphics/shadows/room.h"
+#include "life/crowd/room.h"
 #include "life/traffic/room.h"
 #include "life/vegetation/room.h"
 #include "places/dressing/room.h"
@@ -43,7 +44,7 @@ constexpr Furnish rooms[]{
     meshes::furnish,
     dressing::furnish,  // before roads: see its docstring
     roads::furnish,           traffic::furnish,
-    light::furnish,
+    crowd::furnish,           light::furnish,
     kerbside::furnish,  // after roads
     action::furnish,
     shadows::furnish,        // after light, whose shadows it replaces

@@ -1,0 +1,172 @@
+#include "life/crowd/crowd.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace parvis::crowd {
+namespace {
+
+constexpr float wall_reach_m = 1.2f;  // within which walls are looked for
+constexpr float corner_m = 0.5f;      // at which a corner is reached
+constexpr float own_lean_m = 0.7f;    // corners are passed wider by up to it
+constexpr float queue_lean_m = 0.4f;  // and by so much more at each look around in a queue
+constexpr float queue_speed = 0.6f;   // of the free speed
+constexpr std::uint32_t turns = 4;    // a part of the people looks about anew in each step
+constexpr float lost_s = 4.0f;        // blocked for so long: another way is sought
+// Weidmann 1993: horizontal speeds on stairs.
+constexpr float stair_slope = 0.35f, up_m_s = 0.61f, down_m_s = 0.694f;
+
+/// A number in 0..1 that follows from two others.
+float fraction_of(std::uint32_t number, std::uint32_t use) {
+  std::uint32_t x = number * 0x9e3779b9u + use * 0x85ebca6bu;
+  x ^= x >> 16, x *= 0x7feb352du, x ^= x >> 15, x *= 0x846ca68bu, x ^= x >> 16;
+  return float(x >> 8) / float(1u << 24);
+}
+
+glm::vec2 unit(glm::vec2 v) {
+  const float length = glm::length(v);
+  return length > 1e-5f ? v / length : glm::vec2(0.0f);
+}
+
+}  // namespace
+
+Crowd::Crowd(NavMesh mesh, SteeringRules rules) : mesh_(std::move(mesh)), steering_(rules) { find_walls(); }
+
+void Crowd::find_walls() { walls_ = Walls(mesh_.borders(), wall_reach_m); }
+
+int Crowd::add(const Destination& destination) {
+  destinations_.push_back(destination);
+  return int(destinations_.size()) - 1;
+}
+
+std::optional<std::size_t> Crowd::add(glm::vec3 where, int destination, float speed, float radius_m,
+                                      float waits_s) {
+  const std::optional<glm::vec3> place = mesh_.nearest(where);
+  if (!place) return std::nullopt;
+  const std::size_t index = walkers_.add(*place, place->z, radius_m, speed);
+  PersonOnTheWay person;
+  person.number = next_number_++;
+  person.waits_s = waits_s, person.own_speed = speed;
+  person.lean_m = own_lean_m * fraction_of(person.number, 1);
+  people_.push_back(std::move(person));
+  if (destination < 0 || send(index, destination, waits_s)) return index;
+  remove(index);
+  return std::nullopt;
+}
+
+bool Crowd::send(std::size_t person, int destination, float waits_s) {
+  const glm::vec2 from = walkers_.position[person];
+  const Destination& to = destinations_[std::size_t(destination)];
+  const glm::vec2 on_line = nearest_on_segment(to.a, to.b, from);
+  const std::optional<Way> way =
+      mesh_.way(glm::vec3(from, walkers_.height_m[person]), glm::vec3(on_line, 0.5f * (to.a.z + to.b.z)));
+  if (!way) return false;
+  PersonOnTheWay& it = people_[person];
+  it.destination = destination, it.has_arrived = false, it.waits_s = waits_s;
+  it.way = *way, it.corner = std::min<std::size_t>(1, way->size() - 1);
+  return true;
+}
+
+void Crowd::remove(std::size_t person) {
+  walkers_.remove(person);
+  std::swap(people_[person], people_.back());
+  people_.pop_back();
+}
+
+glm::vec2 Crowd::target_of(std::size_t person) const {
+  const PersonOnTheWay& it = people_[person];
+  const glm::vec2 corner = it.way[it.corner], here = walkers_.position[person];
+  if (it.corner + 1 >= it.way.size()) {
+    const Destination& to = destinations_[std::size_t(it.destination)];
+    // Ends of doors are walls: they are walked to a body's width inside.
+    const glm::vec2 along = to.b - to.a;
+    const float length = glm::length(along), inside = std::min(0.5f, 0.3f / std::max(length, 0.3f));
+    return nearest_on_segment(glm::vec2(to.a) + inside * along, glm::vec2(to.b) - inside * along, here);
+  }
+  // The wall about which the way turns lies on the inner side.
+  const glm::vec2 in = unit(corner - glm::vec2(it.way[it.corner - 1])),
+                  out = unit(glm::vec2(it.way[it.corner + 1]) - corner);
+  const glm::vec2 wider = corner + it.lean_m * unit(in - out);
+  return walls_.crosses(corner, wider, it.way[it.corner].z) ? corner : wider;
+}
+
+void Crowd::follow_way(std::size_t person) {
+  PersonOnTheWay& it = people_[person];
+  const glm::vec2 here = walkers_.position[person];
+  while (it.corner + 1 < it.way.size()) {
+    const glm::vec2 corner = it.way[it.corner], next = it.way[it.corner + 1];
+    const bool is_there =
+        glm::distance(here, target_of(person)) < corner_m || glm::distance(here, corner) < corner_m;
+    if (!is_there && walls_.crosses(here, next, walkers_.height_m[person])) break;
+    ++it.corner;
+    it.lean_m = own_lean_m * fraction_of(it.number, 1);
+  }
+  // Who queues at a corner goes round it wider, where there is room.
+  if (it.corner + 1 < it.way.size() &&
+      glm::length(walkers_.velocity[person]) < queue_speed * walkers_.free_speed[person]) {
+    it.lean_m += queue_lean_m;
+    if (target_of(person) == glm::vec2(it.way[it.corner])) it.lean_m -= queue_lean_m;
+  }
+  const bool is_cut_off = walls_.crosses(here, it.way[it.corner], walkers_.height_m[person]);
+  if (is_cut_off || walkers_.blocked_s[person] > lost_s) {
+    const float blocked_s = walkers_.blocked_s[person];
+    send(person, it.destination);
+    walkers_.blocked_s[person] = std::fmod(blocked_s, lost_s) + 1.0f;
+  }
+}
+
+void Crowd::look_at_ground(std::size_t person) {
+  const glm::vec2 here = walkers_.position[person];
+  const float height = walkers_.height_m[person];
+  constexpr float ahead_m = 0.5f;
+  const std::optional<glm::vec3> below = mesh_.nearest(glm::vec3(here, height), 0.5f);
+  if (!below) return;
+  walkers_.height_m[person] = below->z;
+  const glm::vec2 before = here + ahead_m * walkers_.aim[person];
+  const std::optional<glm::vec3> next = mesh_.nearest(glm::vec3(before, below->z), 0.5f);
+  const float run = next ? glm::distance(glm::vec2(*next), glm::vec2(*below)) : 0.0f;
+  people_[person].slope = run > 0.2f ? (next->z - below->z) / run : 0.0f;
+}
+
+void Crowd::step(float step_s, std::span<const MovingBody> bodies) {
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    PersonOnTheWay& it = people_[i];
+    it.waits_s = std::max(it.waits_s - step_s, 0.0f);
+    walkers_.aim[i] = glm::vec2(0.0f);
+    if (it.destination < 0 || it.has_arrived || it.waits_s > 0.0f) continue;
+    const Destination& to = destinations_[std::size_t(it.destination)];
+    const glm::vec2 here = walkers_.position[i];
+    if (glm::distance(nearest_on_segment(to.a, to.b, here), here) < to.reach_m) {
+      it.has_arrived = true;
+      continue;
+    }
+    const bool looks = (it.number + steps_) % turns == 0;
+    if (looks) follow_way(i);
+    walkers_.aim[i] = unit(target_of(i) - here);
+    if (looks) look_at_ground(i);
+    // Along the slope on gentle ground; Weidmann's speeds on what is as steep as stairs.
+    float speed = it.own_speed / std::sqrt(1.0f + it.slope * it.slope);
+    if (it.slope > stair_slope) speed = std::min(speed, up_m_s);
+    if (it.slope < -stair_slope) speed = std::min(speed, down_m_s);
+    walkers_.free_speed[i] = speed;
+  }
+  steering_.step(walkers_, walls_, bodies, step_s);
+  ++steps_;
+}
+
+void Crowd::change_ground(const WalkingGround& ground, glm::vec2 low, glm::vec2 high) {
+  mesh_.update(ground, low, high);
+  find_walls();
+  const glm::vec2 middle = 0.5f * (low + high);
+  const float radius = 0.5f * glm::distance(low, high) + 1.0f;
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    PersonOnTheWay& it = people_[i];
+    // Who stands where nobody can any more steps aside.
+    const glm::vec3 here(walkers_.position[i], walkers_.height_m[i]);
+    if (glm::distance(glm::vec2(here), middle) < radius)
+      if (const auto place = mesh_.nearest(here, 4.0f)) walkers_.position[i] = *place;
+    if (it.destination >= 0 && !it.has_arrived) send(i, it.destination);
+  }
+}
+
+}  // namespace parvis::crowd

@@ -1,0 +1,80 @@
+// People on their ways: each has a destination, walks there over the navigation mesh among the others, and
+// arrives.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "base/random.h"
+#include "life/crowd/nav_mesh.h"
+#include "life/crowd/steering.h"
+
+namespace parvis::crowd {
+
+/// A line that people walk to and arrive at anywhere along it: a door, the end of a street. A point where
+/// both ends are one.
+struct Destination {
+  glm::vec3 a{0.0f}, b{0.0f};
+  float reach_m = 0.45f;  ///< from the line, at which they have arrived
+};
+
+/// What is known of a person beside the arrays of Walkers.
+struct PersonOnTheWay {
+  std::uint32_t number = 0;  ///< unique in the crowd; the person's own random numbers follow from it
+  int destination = -1;      ///< index of the crowd's; -1: stands
+  float waits_s = 0.0f;      ///< until the person sets off
+  float slope = 0.0f;        ///< of the ground in the walking direction
+  bool has_arrived = false;
+  float own_speed = 1.34f;  ///< on level ground with nobody in the way, m/s
+  float lean_m = 0.0f;      ///< by which corners are passed wider
+  Way way = {};
+  std::size_t corner = 0;  ///< of the way, that is walked to
+};
+
+/// A crowd on one mesh. All that happens follows from its seed and the calls.
+class Crowd {
+ public:
+  /// The mesh belongs to the crowd.
+  explicit Crowd(NavMesh mesh, SteeringRules rules = {});
+
+  /// Adds a destination; returns its index.
+  int add(const Destination& destination);
+  /// Adds a person at a place of the mesh; returns the index. Nothing where the place is not on the mesh, or
+  /// no way leads to the destination.
+  std::optional<std::size_t> add(glm::vec3 where, int destination, float speed, float radius_m,
+                                 float waits_s = 0.0f);
+  /// Sends a person elsewhere, who sets off in `waits_s`. False where no way leads there.
+  bool send(std::size_t person, int destination, float waits_s = 0.0f);
+  /// Removes a person; the last one takes the index.
+  void remove(std::size_t person);
+
+  /// `step_s` passes (0.05 to 0.2). Who arrives stands, with has_arrived.
+  void step(float step_s, std::span<const MovingBody> bodies = {});
+
+  /// The ground has changed between `low` and `high` (in plan): whose way it crosses finds another one.
+  void change_ground(const WalkingGround& ground, glm::vec2 low, glm::vec2 high);
+
+  std::size_t size() const { return walkers_.size(); }
+  const Walkers& walkers() const { return walkers_; }
+  const std::vector<PersonOnTheWay>& people() const { return people_; }
+  const std::vector<Destination>& destinations() const { return destinations_; }
+  const NavMesh& mesh() const { return mesh_; }
+  const Walls& walls() const { return walls_; }
+
+ private:
+  void find_walls();
+  void follow_way(std::size_t person);
+  void look_at_ground(std::size_t person);
+  glm::vec2 target_of(std::size_t person) const;
+
+  NavMesh mesh_;
+  Walls walls_;
+  Steering steering_;
+  Walkers walkers_;
+  std::vector<PersonOnTheWay> people_;
+  std::vector<Destination> destinations_;
+  std::uint32_t next_number_ = 0, steps_ = 0;
+};
+
+}  // namespace parvis::crowd

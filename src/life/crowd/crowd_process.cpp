@@ -1,0 +1,141 @@
+#include "life/crowd/crowd_process.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "life/crowd/scene_ground.h"
+#include "scene/data/object_animation.h"
+
+namespace parvis::crowd {
+namespace {
+
+constexpr int clock_steps = 6;  // of action::step_s, for one step of the crowd
+constexpr float crowd_step_s = float(double(clock_steps) * action::step_s);
+constexpr int destinations = 64;      // places that people walk between
+constexpr int tries_per_person = 12;  // to find a place from which a way leads on
+constexpr int warm_up_steps = 200;    // all start at rest
+constexpr float mean_speed = 1.34f, speed_deviation = 0.26f, least_speed = 0.6f,
+                max_speed = 2.0f;  // Weidmann 1993
+constexpr float longest_rest_s = 12.0f,
+                resting = 0.35f;   // the fraction of arrivals after which somebody rests
+constexpr float turn_rate = 5.0f;  // radians per second
+constexpr float shoulders_m = 0.21f, shoulder_range_m = 0.03f;
+
+/// A normal deviate by twelve uniform ones: bounded, and the same on every machine.
+float normal(Random& random) {
+  float sum = -6.0f;
+  for (int i = 0; i < 12; ++i) sum += random.uniform();
+  return sum;
+}
+
+float wrapped(float angle) { return std::remainder(angle, 2.0f * std::numbers::pi_v<float>); }
+
+}  // namespace
+
+int CrowdProcess::new_destination(Random& random) { return random.index(int(crowd_->destinations().size())); }
+
+void CrowdProcess::populate(const CrowdDemand& demand) {
+  Random places(demand.seed);
+  const auto somewhere = [&] {
+    return crowd_->mesh().place(places.uniform(), places.uniform(), places.uniform());
+  };
+  for (int d = 0; d < destinations; ++d) {
+    const glm::vec3 place = somewhere();
+    crowd_->add(Destination{place, place, 0.8f});
+  }
+  int missing = 0;
+  for (int p = 0; p < demand.people; ++p) {
+    Random random(demand.seed, std::uint64_t(p) + 1);
+    const float speed = std::clamp(mean_speed + speed_deviation * normal(random), least_speed, max_speed);
+    const float radius = shoulders_m + shoulder_range_m * random.uniform(-1.0f, 1.0f);
+    std::optional<std::size_t> person;
+    for (int t = 0; t < tries_per_person && !person; ++t)
+      person = crowd_->add(somewhere(), new_destination(random), speed, radius);
+    if (!person) {
+      ++missing;
+      continue;
+    }
+    Shown shown;
+    shown.model = &models_[std::size_t(random.index(int(models_.size())))];
+    shown.walked_m = random.uniform(0.0f, shown.model->cycle_m);
+    shown.heading = random.uniform(-3.0f, 3.0f);
+    shown_.push_back(shown), randoms_.push_back(random);
+  }
+  if (missing > 0)
+    warn(
+        error("crowd: {} of {} people found no place from which a way leads on; a larger radius, or another "
+              "centre, "
+              "gives more",
+              missing, demand.people));
+}
+
+void CrowdProcess::begin(scene::Scene& scene, action::SharedByProcesses&) {
+  const CrowdDemand& demand = std::as_const(scene).data<CrowdDemand>();
+  if (demand.people <= 0 || demand.models.empty()) return;
+  Result<NavMesh> mesh = NavMesh::create(ground_of(scene, demand.centre, demand.radius_m));
+  if (!mesh) {
+    for (const Error& reason : mesh.errors()) warn(error("crowd: {}", reason.message));
+    return;
+  }
+  models_ = demand.models;
+  crowd_.emplace(*std::move(mesh));
+  populate(demand);
+  for (std::size_t p = 0; p < shown_.size(); ++p) {
+    scene::Object object;
+    object.name = person_name(p);
+    object.model = shown_[p].model->model;
+    object.is_visible = demand.is_visible;
+    scene::play(object, {shown_[p].model->animation, 0.0f, 0.0});
+    shown_[p].object = scene.objects.size();
+    scene.objects.push_back(std::move(object));
+  }
+  for (int i = 0; i < warm_up_steps; ++i) walk();
+  present(scene, 0.0);
+}
+
+void CrowdProcess::walk() {
+  for (std::size_t p = 0; p < shown_.size(); ++p) {
+    if (!crowd_->people()[p].has_arrived) continue;
+    Random& random = randoms_[p];
+    crowd_->send(p, new_destination(random),
+                 random.chance(resting) ? random.uniform(1.0f, longest_rest_s) : 0.0f);
+  }
+  crowd_->step(crowd_step_s, vehicles_);
+  const Walkers& walkers = crowd_->walkers();
+  for (std::size_t p = 0; p < shown_.size(); ++p) {
+    Shown& it = shown_[p];
+    it.before = it.now, it.now = glm::vec3(walkers.position[p], walkers.height_m[p]);
+    it.walked_before_m = it.walked_m, it.heading_before = it.heading;
+    const glm::vec2 velocity = walkers.velocity[p];
+    const float speed = glm::length(velocity);
+    it.walked_m += double(speed * crowd_step_s);
+    constexpr float least_turning_speed = 0.15f;  // who is pushed about does not turn round
+    const glm::vec2 towards = speed > least_turning_speed ? velocity : walkers.aim[p];
+    if (towards == glm::vec2(0.0f)) continue;
+    const float turn = wrapped(std::atan2(towards.y, towards.x) - it.heading),
+                most = turn_rate * crowd_step_s;
+    it.heading += std::clamp(turn, -most, most);
+  }
+}
+
+void CrowdProcess::step(const scene::Scene&) {
+  if (!crowd_ || ++steps_ % clock_steps != 0) return;
+  walk();
+}
+
+void CrowdProcess::present(scene::Scene& scene, double ahead_s) {
+  const double since_s = double(steps_ % clock_steps) * action::step_s + ahead_s;
+  const float part = std::min(float(since_s) / crowd_step_s, 1.0f);
+  for (const Shown& it : shown_) {
+    scene::Object& object = scene.objects[it.object];
+    const glm::vec3 place = glm::mix(it.before, it.now, part);
+    const float heading = it.heading_before + part * (it.heading - it.heading_before);
+    object.world_from_model =
+        glm::rotate(glm::translate(glm::mat4(1.0f), place), heading, glm::vec3(0, 0, 1));
+    const double walked_m = it.walked_before_m + double(part) * (it.walked_m - it.walked_before_m);
+    object.played.start_s = walked_m / double(it.model->cycle_m) * double(it.model->cycle_s);
+  }
+}
+
+}  // namespace parvis::crowd

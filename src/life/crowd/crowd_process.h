@@ -1,0 +1,56 @@
+// The people of a scene that runs.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/random.h"
+#include "life/crowd/crowd.h"
+#include "life/crowd/demand.h"
+#include "scene/action/process.h"
+
+namespace parvis::crowd {
+
+/// Name of a person's object, counted from 1 ("person 1"): cameras follow people by these names.
+inline std::string person_name(std::size_t person) { return fmt::format("person {}", person + 1); }
+
+/// People who walk between places of the scene's ground, rest there for a while and walk on, as its
+/// CrowdDemand asks.
+class CrowdProcess final : public action::Process {
+ public:
+  std::string name() const override { return "crowd"; }
+  /// "60 people"; empty where there are none.
+  std::string status() const override {
+    return shown_.empty() ? "" : fmt::format("{} people", shown_.size());
+  }
+  /// Puts people on the scene's ground.
+  void begin(scene::Scene& scene, action::SharedByProcesses&) override;
+  void step(const scene::Scene& scene) override;
+  void present(scene::Scene& scene, double ahead_s) override;
+
+  /// After `begin`; nothing where nobody walks.
+  const Crowd* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
+
+ private:
+  /// A person as shown.
+  struct Shown {
+    std::size_t object = 0;  ///< of the scene
+    const PersonModel* model = nullptr;
+    glm::vec3 before{0.0f}, now{0.0f};            ///< places at the last two steps
+    float heading_before = 0.0f, heading = 0.0f;  ///< radians, counter-clockwise from +x
+    double walked_before_m = 0.0, walked_m = 0.0;
+  };
+
+  void populate(const CrowdDemand& demand);
+  void walk();
+  int new_destination(Random& random);
+
+  std::optional<Crowd> crowd_;
+  std::vector<PersonModel> models_;
+  std::vector<Shown> shown_;
+  std::vector<Random> randoms_;
+  std::vector<MovingBody> vehicles_;
+  long steps_ = 0;
+};
+
+}  // namespace parvis::crowd
