@@ -75,6 +75,17 @@ add_library(parvis_test_pch STATIC ${CMAKE_BINARY_DIR}/empty.cpp)
 target_link_libraries(parvis_test_pch PRIVATE parvis_options parvis_test_options fmt::fmt glm::glm GTest::gtest)
 target_precompile_headers(parvis_test_pch PRIVATE ${common_headers} <gtest/gtest.h>)
 
+# The compiler cache takes this hash for the precompiled headers, whose bytes differ from one compilation to the next, so that objects
+# are found again from another checkout (CCACHE_PCH_EXTSUM of script/build).
+foreach(pch parvis_pch parvis_test_pch)
+  string(SHA256 sum "${pch} ${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_BUILD_TYPE} ${PARVIS_SANITIZE} ${fmt_VERSION} ${glm_VERSION} ${GTest_VERSION} ${common_headers}")
+  set(folder ${CMAKE_BINARY_DIR}/CMakeFiles/${pch}.dir)
+  file(MAKE_DIRECTORY ${folder})
+  foreach(extension gch pch)
+    file(WRITE ${folder}/cmake_pch.hxx.${extension}.sum "${sum}")
+  endforeach()
+endforeach()
+
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")  # without the time of day in it, so that the compiler cache knows it again
   target_compile_options(parvis_pch PRIVATE "SHELL:-Xclang -fno-pch-timestamp")
   target_compile_options(parvis_test_pch PRIVATE "SHELL:-Xclang -fno-pch-timestamp")
