@@ -14,7 +14,7 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double bridge_clearance_m = 4.5, deck_m = 0.9;  // below a bridge, and of its deck
+constexpr double bridge_clearance_m = 4.5, deck_depth_m = 0.9;  // below a bridge, and of its deck
 constexpr double low_bridge_m = 1.0;                      // over water
 constexpr double road_slope = 0.06, rail_slope = 0.03;
 constexpr int max_layer = 4;
@@ -123,7 +123,7 @@ double OsmRelief::height_of_bridge(const OsmWay& bridge, const OpenWays& ways) c
       return !is_over_way;
     });
   }
-  return is_over_way ? double(layer) * (bridge_clearance_m + deck_m) : low_bridge_m;
+  return is_over_way ? double(layer) * (bridge_clearance_m + deck_depth_m) : low_bridge_m;
 }
 
 /// Of all ways that lie open: ramps are none in tunnels.
