@@ -84,7 +84,7 @@ void expect_refused(const std::string& text, const std::string& reason, int line
 }
 
 /// A surface of 4 x 3 m at a height, which faces down where `corners` run clockwise.
-std::string surface(const std::string& corners) {
+std::string lod2_surface(const std::string& corners) {
   return "<gml:surfaceMember><gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>" + corners +
          "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember>";
 }
@@ -94,7 +94,7 @@ TEST(CityGml, RoomsKeepTheirCeilingsAndTheirFurniture) {
     return fmt::format(
         "<bldg:boundedBy><bldg:{0}><bldg:lod4MultiSurface><gml:MultiSurface>{1}</gml:MultiSurface>"
         "</bldg:lod4MultiSurface></bldg:{0}></bldg:boundedBy>",
-        kind, surface(corners));
+        kind, lod2_surface(corners));
   };
   const Result<Model> city = read_gml(
       R"(<?xml version="1.0"?><CityModel xmlns="http://www.opengis.net/citygml/2.0"
@@ -104,7 +104,7 @@ xmlns:bldg="http://www.opengis.net/citygml/building/2.0" xmlns:gml="http://www.o
       bounded("FloorSurface", "0 0 0 4 0 0 4 3 0 0 3 0 0 0 0") +
       bounded("InteriorWallSurface", "0 0 0 4 0 0 4 0 3 0 0 3 0 0 0") +
       "<bldg:interiorFurniture><bldg:BuildingFurniture><bldg:lod4Geometry><gml:MultiSurface>" +
-      surface("1 1 0.8 2 1 0.8 2 2 0.8 1 2 0.8 1 1 0.8") +
+      lod2_surface("1 1 0.8 2 1 0.8 2 2 0.8 1 2 0.8 1 1 0.8") +
       "</gml:MultiSurface></bldg:lod4Geometry></bldg:BuildingFurniture></bldg:interiorFurniture>"
       "</bldg:Room></bldg:interiorRoom></bldg:Building></cityObjectMember></CityModel>");
   ASSERT_TRUE(city) << to_string(city.errors());
@@ -394,7 +394,7 @@ TEST(CityGml, CornersFarBeyondTheEarthGiveNoInfinitePlaces) {
   for (const char* far : {"4e38", "1e86", "1e300", "1e400", "nan"}) {
     std::string text = wall();
     text.replace(text.find("80004"), 5, far);
-    const Result<Model> model = read(text);
+    const Result<Model> model = read_gml(text);
     if (!model) continue;
     for (const Part& part : model->parts)
       for (const glm::vec3& corner : part.mesh.positions)

@@ -16,12 +16,12 @@ constexpr const char* longitude_first_system = "urn:ogc:def:crs:OGC:1.3:CRS84";
 enum class Written { solid, named_surfaces };
 
 /// A house whose plan is an L, open to the north east: 0.0002 x 0.00015 degrees, 6 m high.
-Json house_at(glm::dvec2 in_delft_deg, bool is_north_first, const char* system, Written written) {
+Json house_at(glm::dvec2 at_deg, bool is_north_first, const char* system, Written written) {
   Json city = Json::parse(R"({"type":"CityJSON","version":"1.1","CityObjects":{"house":{"type":"Building"}},
     "transform":{"scale":[1e-7,1e-7,1]}})");
   city["metadata"]["referenceSystem"] = system;
-  if (is_north_first) std::swap(in_delft_deg.x, in_delft_deg.y);
-  city["transform"]["translate"] = {in_delft_deg.x, in_delft_deg.y, 0};
+  if (is_north_first) std::swap(at_deg.x, at_deg.y);
+  city["transform"]["translate"] = {at_deg.x, at_deg.y, 0};
   const std::vector<glm::ivec2> plan{{0, 0}, {2000, 0}, {2000, 500}, {1000, 500}, {1000, 1500}, {0, 1500}};
   for (const int height : {0, 6})
     for (const glm::ivec2 corner : plan)
