@@ -72,7 +72,7 @@ File triangle() {
 
 Json& primitive(File& file) { return file.json["meshes"][0]["primitives"][0]; }
 
-std::vector<glm::dvec3> corners(const Model& model, std::size_t part = 0) {
+std::vector<glm::dvec3> corners_of_part(const Model& model, std::size_t part = 0) {
   const glm::mat4 pose = rest_pose(model)[std::size_t(model.parts[part].node)];
   std::vector<glm::dvec3> points;
   for (const std::uint32_t index : model.parts[part].mesh.indices)
@@ -82,7 +82,7 @@ std::vector<glm::dvec3> corners(const Model& model, std::size_t part = 0) {
 
 /// Where the first triangle of a part faces, by its winding as the renderer sees it.
 glm::dvec3 facing(const Model& model, std::size_t part = 0) {
-  const std::vector<glm::dvec3> c = corners(model, part);
+  const std::vector<glm::dvec3> c = corners_of_part(model, part);
   const glm::mat4 pose = rest_pose(model)[std::size_t(model.parts[part].node)];
   const double side = glm::determinant(glm::mat3(pose)) < 0.0f ? -1.0 : 1.0;
   return side * glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
@@ -102,7 +102,7 @@ TEST(GltfKinds, NoPartStandsOnANodeThatMirrors) {
   EXPECT_GT(glm::determinant(glm::mat3(rest_pose(model)[std::size_t(model.parts[0].node)])), 0.0f);
   expect_near(facing(model), {0, -1, 0});  // the file's +z, as the mesh on a node that does not mirror
   double least = 0.0;
-  for (const glm::dvec3& corner : corners(model)) least = std::min(least, corner.x);
+  for (const glm::dvec3& corner : corners_of_part(model)) least = std::min(least, corner.x);
   EXPECT_NEAR(least, -1.0, 1e-6);
   const glm::mat3 pose(rest_pose(model)[std::size_t(model.parts[0].node)]);
   expect_near(glm::dvec3(glm::normalize(pose * model.parts[0].mesh.normals[0])), {0, -1, 0});
@@ -118,13 +118,13 @@ TEST(GltfKinds, AMatrixIsReadAtAnyScaleAndAFlatOneStaysFlat) {
   file.json["nodes"][0]["matrix"] = {1e-5, 0, 0, 0, 0, 0, -1e-5, 0, 0, 1e-5, 0, 0, 2, 3, 4, 1};
   const Model small = file.model();
   ASSERT_EQ(small.parts.size(), 1u);
-  expect_near(corners(small)[0], {2, -4, 3});
-  EXPECT_NEAR(corners(small)[1].x - 2.0, 1e-5, 1e-6);  // floats at 2 are that far apart
+  expect_near(corners_of_part(small)[0], {2, -4, 3});
+  EXPECT_NEAR(corners_of_part(small)[1].x - 2.0, 1e-5, 1e-6);  // floats at 2 are that far apart
   file.json["nodes"][0]["matrix"] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1};
   const Model flat = file.model();
   ASSERT_EQ(flat.parts.size(), 1u);
-  expect_near(corners(flat)[1], {2, 0, 0});
-  expect_near(corners(flat)[2], {0, 0, 2});
+  expect_near(corners_of_part(flat)[1], {2, 0, 0});
+  expect_near(corners_of_part(flat)[2], {0, 0, 2});
 }
 
 TEST(GltfKinds, LargeTranslationsThatCancelLeaveMillimetres) {
@@ -135,8 +135,8 @@ TEST(GltfKinds, LargeTranslationsThatCancelLeaveMillimetres) {
                         {{"mesh", 0}, {"translation", {0.625, 0, 0}}, {"rotation", {0, half, 0, half}}}};
   const Model model = file.model();
   EXPECT_EQ(model.origin, glm::dvec3(0.0));
-  expect_near(corners(model)[0], {0.625, 0, 0});
-  expect_near(corners(model)[1], {0.625, 1, 0});
+  expect_near(corners_of_part(model)[0], {0.625, 0, 0});
+  expect_near(corners_of_part(model)[1], {0.625, 1, 0});
 }
 
 TEST(GltfKinds, CoordinatesOfANationalGridAreGivenAboutALocalOrigin) {
@@ -146,8 +146,8 @@ TEST(GltfKinds, CoordinatesOfANationalGridAreGivenAboutALocalOrigin) {
   ASSERT_TRUE(content) << to_string(content.errors());
   const Model& model = content->model;
   EXPECT_EQ(model.origin.z, 0.0);
-  expect_near(corners(model)[0] + model.origin, {458321.37, 5431987.63, 35.25}, 1e-4);
-  EXPECT_LT(glm::length(glm::dvec2(corners(model)[0])), 10.0);
+  expect_near(corners_of_part(model)[0] + model.origin, {458321.37, 5431987.63, 35.25}, 1e-4);
+  EXPECT_LT(glm::length(glm::dvec2(corners_of_part(model)[0])), 10.0);
   EXPECT_EQ(content->account.count(Fate::changed, "coordinates"), 1u);
 }
 
@@ -167,8 +167,8 @@ TEST(GltfKinds, InstancesStandAtNodeTimesTranslationRotationAndScale) {
   const Result<formats::FileContent> content = file.read();
   ASSERT_TRUE(content) << to_string(content.errors());
   ASSERT_EQ(content->model.parts.size(), 2u);
-  expect_near(corners(content->model, 0)[1], {2, 0, 10});
-  const std::vector<glm::dvec3> second = corners(content->model, 1);  // mirrored: wound the other way
+  expect_near(corners_of_part(content->model, 0)[1], {2, 0, 10});
+  const std::vector<glm::dvec3> second = corners_of_part(content->model, 1);  // mirrored: wound the other way
   expect_near(second[0], {5, 0, 10});
   expect_near(second[1] + second[2], {7, 0, 23});  // 5 0 13 and 2 0 10
   EXPECT_EQ(content->account.count(Fate::used, "instances"), 2u);
