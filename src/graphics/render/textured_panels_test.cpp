@@ -2,14 +2,14 @@
 #include <gtest/gtest.h>
 
 #include "graphics/gl/test_context.h"
+#include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/metrics.h"
+#include "graphics/render/test_renderer.h"
 #include "graphics/shading/tone_curve.h"
-#include "house/rooms.h"
-#include "house/stage/stage.h"
-#include "reflections/methods/settings.h"
+#include "reflections/methods/frame.h"
 #include "scene/data/test_scene.h"
 
-namespace parvis::house {
+namespace parvis::render {
 namespace {
 
 using scene::add, scene::matt, scene::model_of, scene::quad;
@@ -24,16 +24,17 @@ class TexturedPanels : public gl::ContextTest {
     add(scene, std::make_shared<scene::Model>(model));
     scene.sun.direction_to_sun = glm::normalize(glm::vec3(0, -1, 0.2f));
     scene.sun.irradiance = glm::vec3(3.0f);
-    methods::settings(scene) = {"none", 0, false};
-    Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), scene));
-    ASSERT_TRUE(stage) << to_string(stage.errors());
+    const std::unique_ptr<Renderer> renderer = renderer_of(scene, light::sun_and_sky);
     Camera camera;
     camera.world_from_camera = look_at({0, -3.139f, 1.125f}, {0, 0, 1.125f});
     camera.vertical_fov = 2.0f * std::atan(1.125f / 3.139f);
-    (*stage)->draw(camera, width, height);
-    drawn_ = (*stage)->picture();
-    const reference::TracedPicture truth = (*stage)->trace(camera, width, height, 8);
-    traced_ = shading::tone_mapped_picture(truth.radiance, (*stage)->scene().exposure);
+    const EyeView eye{camera, width, height};
+    ASSERT_TRUE(methods::draw_frame(*renderer, scene, nullptr, eye, {}));
+    drawn_ = renderer->read_picture(scene.exposure);
+    reference::TraceOptions options;
+    options.samples_per_pixel = 8;
+    traced_ = shading::tone_mapped_picture(methods::trace_frame(*renderer, scene, eye, options).radiance,
+                                           scene.exposure);
     const Result<reference::Difference> difference = reference::compare(drawn_, traced_);
     ASSERT_TRUE(difference) << to_string(difference.errors());
     EXPECT_LT(difference->flip, 0.02);  // four samples per pixel against eight, at edges
@@ -155,4 +156,4 @@ TEST_F(TexturedPanels, ACutoffBelongsToTheMaterial) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::render
