@@ -48,7 +48,7 @@ NodeSchema override_schema() {
 }
 
 /// What a scene has once would be there in all scenarios.
-void refuse_what_stands_once(const std::vector<Node>& nodes, const std::string& scenario,
+void refuse_what_stands_once(const Nodes& nodes, const std::string& scenario,
                              SceneBuilder& builder) {
   for (const Node& node : nodes) {
     const std::string& type = node.schema->type;

@@ -168,32 +168,32 @@ TEST_F(SceneBuilderTest, WhatAStepGaveToAnObjectIsReplacedWithIt) {
 
 TEST_F(SceneBuilderTest, AChangedPartBuildsTheNodeAroundItAgain) {
   load(three);
-  live_.set(live_.find("a")->children[1], "height", 7.0);
+  live_.set(*std::next(live_.find("a")->children.begin()), "height", 7.0);
   EXPECT_TRUE(live_.refresh(scene_).empty());
   EXPECT_EQ(heights(), (std::vector{1.0f, 7.0f, 3.0f, 4.0f}));
 }
 
 TEST_F(SceneBuilderTest, WhatCannotBeRebuiltStaysAsItWas) {
   load(three);
-  live_.set(live_.find("a")->children[1], "height", 0.0);
+  live_.set(*std::next(live_.find("a")->children.begin()), "height", 0.0);
   const Errors errors = live_.refresh(scene_);
   ASSERT_EQ(errors.size(), 1u);
   EXPECT_NE(errors[0].message.find("without water"), std::string::npos);
   EXPECT_EQ(heights(), (std::vector{1.0f, 2.0f, 3.0f, 4.0f}));
-  EXPECT_EQ(live_.find("a")->children[1].number("height"), 2.0);
+  EXPECT_EQ(std::next(live_.find("a")->children.begin())->number("height"), 2.0);
 }
 
 TEST_F(SceneBuilderTest, AValueThatCannotBeBuiltLeavesTheOthersOfItsMoment) {
   load(three);
   const Node& fountain = *live_.find("a");
-  live_.set(fountain.children[1], "height", 7.0);
-  live_.set(fountain.children[0], "height", 0.0);
+  live_.set(fountain.children.back(), "height", 7.0);
+  live_.set(fountain.children.front(), "height", 0.0);
   live_.set(fountain, "position", glm::vec3(4, 0, 0));
   const Errors errors = live_.refresh(scene_);
   ASSERT_EQ(errors.size(), 1u);
   EXPECT_NE(errors[0].message.find("without water"), std::string::npos);
   EXPECT_EQ(heights(), (std::vector{1.0f, 7.0f, 3.0f, 4.0f}));
-  EXPECT_EQ(fountain.children[0].number("height"), 1.0);
+  EXPECT_EQ(fountain.children.front().number("height"), 1.0);
   EXPECT_EQ(fountain.vec3("position"), glm::vec3(4, 0, 0));
   EXPECT_TRUE(live_.refresh(scene_).empty()) << "nothing is left to be tried again";
 }
