@@ -39,6 +39,7 @@ Camera camera_of(const Keyframe& key, const Camera& lens) {
 
 void Actions::begin(Scene& scene, SharedByProcesses& shared) {
   shared_ = &shared;
+  edits_ = live().edits();
   for (const Node& node : live().nodes()) read(node);
   for (const Motion& motion : motions_)
     for (const int object : live().objects_of(*motion.target))
