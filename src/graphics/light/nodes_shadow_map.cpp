@@ -7,6 +7,7 @@
 
 #include "graphics/light/shadow_settings.h"
 #include "scene/script/attribute.h"
+#include "scene/script/live_scene.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::light {

@@ -112,6 +112,11 @@ void LiveScene::set(const Node& node, const std::string& attribute, AttributeVal
   give(change(node), attribute, std::move(value));
 }
 
+void LiveScene::set_all(const Node& node, std::vector<NodeAttribute> attributes) {
+  std::erase_if(settings_, [&](const Setting& earlier) { return earlier.node == &node; });
+  change(node).attributes = std::move(attributes);
+}
+
 const Node& LiveScene::unique_node(const std::string& type) {
   if (const Node* node = find("%" + type)) return *node;
   const NodeSchema& schema = script_.registry->find(type)->schema;

@@ -32,6 +32,7 @@ class LiveScene {
   /// For a scene without a script; `unique_node` creates its nodes. The registry must outlive it.
   explicit LiveScene(const NodeRegistry& registry) { script_.registry = &registry; }
 
+  const NodeRegistry& registry() const { return *script_.registry; }  ///< of the nodes' types
   /// The top-level nodes of the script; included files' nodes are in place.
   const Nodes& nodes() const { return script_.nodes; }
   /// The node of this name, or of a unique type written %TYPE; null if there is none.
@@ -57,6 +58,8 @@ class LiveScene {
   /// Gives an attribute of the node a new value of its type and clears the attributes that it replaces. Takes
   /// effect with the next `refresh`.
   void set(const Node& node, const std::string& attribute, AttributeValue value);
+  /// The same for all attributes of the node at once.
+  void set_all(const Node& node, std::vector<NodeAttribute> attributes);
   /// The node of a unique type: the script's, or a new one without attributes.
   const Node& unique_node(const std::string& type);
   /// Gives the attribute the value that `text` spells, for every scenario (command line). On an error, which
