@@ -318,7 +318,7 @@ struct Writer {
   std::string operator()(const Apply& c) const { return fmt::format("apply {} to {}", c.from, list(c.names)); }
   std::string operator()(const Surface& c) const {
     std::string text = "surface " + c.material;
-    for (const glm::dvec3& corner : c.outline) text += " " + place(corner);
+    for (const glm::dvec3& corner : c.outline) text += fmt::format(" {}", place(corner));
     return text + with("colour", c.colour) + with("name", c.name);
   }
   std::string operator()(const Rename& c) const { return fmt::format("rename {} as {}", c.from, c.to); }
