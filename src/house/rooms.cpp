@@ -18,6 +18,7 @@
 #include "life/vegetation/room.h"
 #include "places/dressing/room.h"
 #include "places/kerbside/room.h"
+#include "planning/design/room.h"
 #include "planning/plan_drawing/room.h"
 #include "reflections/environment_rays/room.h"
 #include "reflections/local_maps/room.h"
@@ -55,7 +56,9 @@ constexpr Furnish rooms[]{
     virtual_objects::furnish, refraction::furnish,
     lit_objects::furnish,  // after all processes that move things
     facades::furnish,         trees::furnish,
-    vegetation::furnish,      view_dependent_objects::furnish,
+    vegetation::furnish,
+    design::furnish,  // after vegetation, whose plants it places
+    view_dependent_objects::furnish,
     plan_drawing::furnish,
 };
 

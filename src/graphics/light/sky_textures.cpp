@@ -22,8 +22,8 @@ shading::Heightfield visible_heights(const scene::Scene& scene) {
   return heights;
 }
 
-/// Adds objects that have come to the heights, and rebuilds the heights where one has gone. No room's own drawable has
-/// changed.
+/// Adds objects that have come to the heights, and rebuilds the heights where one has gone. No room's own
+/// drawable has changed.
 void renew_heights(const scene::Scene& scene, const render::GpuScene& gpu, shading::Heightfield& heights) {
   const std::vector<Bounds> places_left = render::united(gpu.fixed_change().gone, 0.0f);
   for (const Bounds& place : places_left) heights.clear(place);

@@ -61,7 +61,8 @@ void LightingProcess::find_objects(scene::Scene& scene) {
   auto& irradiance = scene.data<scene::VertexIrradiance>();
   for (const scene::Node* node : nodes) {
     const std::vector<int> objects = live_->objects_of(*node);
-    if (objects.empty() && begins) warn(error_at(node->where, "{} holds no object that could be lit", lit_type));
+    if (objects.empty() && begins)
+      warn(error_at(node->where, "{} holds no object that could be lit", lit_type));
     for (const int object : objects) {
       if (irradiance.of(std::size_t(object))) continue;
       texels_ += LitObject::texel_count(scene.objects[std::size_t(object)]);

@@ -209,7 +209,8 @@ void RayScene::add_objects(const scene::Scene& scene) {
   forget_things();
   for (std::size_t o = object_count_; o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];
-    for (std::size_t p = 0; p < object.model->parts.size(); ++p) placed_[&object.mesh(p)] += 2;  // never joined
+    for (std::size_t p = 0; p < object.model->parts.size(); ++p)
+      placed_[&object.mesh(p)] += 2;  // never joined
     add_object(object, int(o));
     for (const PlacedPart* part : parts_of(int(o))) moved_.push_back(part->bounds);
   }

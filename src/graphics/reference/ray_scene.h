@@ -107,9 +107,8 @@ class RayScene {
   ~RayScene();
 
   /// Takes over where objects and traced things stand now, which of them are visible, and how meshes are
-  /// deformed. The objects and their models must be those of the scene that this was made of, with new ones behind
-  /// them.
-  /// True where anything has changed.
+  /// deformed. The objects and their models must be those of the scene that this was made of, with new ones
+  /// behind them. True where anything has changed.
   bool update(const scene::Scene& scene);
   /// Boxes about what moved, appeared, vanished or was deformed at the last update: of each object or traced
   /// part one before and one after it.

@@ -40,7 +40,8 @@ struct Extents {
 class Drawable {
  public:
   virtual ~Drawable() = default;
-  /// The number of its thing 0 (DrawableKind::make) is another one: there are more objects, or things before it.
+  /// The number of its thing 0 (DrawableKind::make) is another one: there are more objects, or things before
+  /// it.
   virtual void renumber(int /*first_thing*/) {}
   /// Called once per frame, before any view: takes over changes of the scene.
   virtual void update(const scene::Scene&) {}

@@ -27,7 +27,8 @@ Status Drawables::follow(const scene::Scene& scene, std::vector<Made>& made) con
   scene::for_each_traced_kind(scene, [&](const scene::TracedKind& traced, int first_thing) {
     const auto known = std::ranges::find(made, traced.name, &Made::kind);
     if (known != made.end()) {
-      if (std::exchange(known->first_thing, first_thing) != first_thing) known->drawable->renumber(first_thing);
+      if (std::exchange(known->first_thing, first_thing) != first_thing)
+        known->drawable->renumber(first_thing);
       return;
     }
     const DrawableKind* kind = find(traced.name);

@@ -41,9 +41,9 @@ class Drawables {
     int first_thing = 0;  ///< the number of its thing 0
     std::unique_ptr<Drawable> drawable;
   };
-  /// Makes the drawables of all kinds of which the scene has things and which are not among `made`, and gives those
-  /// that are there the numbers of their things. A scene's kind that is not registered here is an error: it would be
-  /// traced, but not drawn.
+  /// Makes the drawables of all kinds of which the scene has things and which are not among `made`, and gives
+  /// those that are there the numbers of their things. A scene's kind that is not registered here is an
+  /// error: it would be traced, but not drawn.
   Status follow(const scene::Scene& scene, std::vector<Made>& made) const;
 
  private:

@@ -5,7 +5,8 @@
 namespace parvis::render {
 namespace {
 
-/// Appends values to those that a buffer holds. The first ones have no room to spare: most scenes stay as they are.
+/// Appends values to those that a buffer holds. The first ones have no room to spare: most scenes stay as
+/// they are.
 template <class T>
 void append_to(gl::Buffer& buffer, std::size_t& room, std::size_t& count, const std::vector<T>& added) {
   constexpr std::size_t spare_share = 8;
@@ -27,8 +28,8 @@ void append_to(gl::Buffer& buffer, std::size_t& room, std::size_t& count, const 
 }  // namespace
 
 MeshRange GpuGeometry::append(const Mesh& mesh, std::span<const float> openness) {
-  const MeshRange range{std::uint32_t(uploaded_indices_ + indices_.size()), std::uint32_t(mesh.indices.size()),
-                        std::int32_t(end_vertex())};
+  const MeshRange range{std::uint32_t(uploaded_indices_ + indices_.size()),
+                        std::uint32_t(mesh.indices.size()), std::int32_t(end_vertex())};
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     vertices_.push_back(
         {mesh.positions[i], mesh.normals[i], mesh.uvs[i], openness.empty() ? 1.0f : openness[i]});
@@ -76,8 +77,8 @@ void GpuGeometry::upload() {
 }
 
 void GpuGeometry::deform(const MeshRange& range, const Mesh& mesh) {
-  const auto run = std::prev(std::ranges::upper_bound(runs_, std::size_t(range.base_vertex), {},
-                                                      &Run::first_in_buffer));
+  const auto run =
+      std::prev(std::ranges::upper_bound(runs_, std::size_t(range.base_vertex), {}, &Run::first_in_buffer));
   Vertex* vertex = deforming_.data() + run->first + (std::size_t(range.base_vertex) - run->first_in_buffer);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i, ++vertex) {
     vertex->position = mesh.positions[i];

@@ -1,5 +1,5 @@
-// All triangles of a scene in one vertex and one index buffer, which grow as meshes come. Deforming meshes that were
-// added one after another are uploaded together every frame.
+// All triangles of a scene in one vertex and one index buffer, which grow as meshes come. Deforming meshes
+// that were added one after another are uploaded together every frame.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@ struct MeshRange {
   std::int32_t base_vertex;
 };
 
-/// The shared vertex and index buffer of a scene: meshes are added, uploaded, and deforming ones updated every frame.
+/// The shared vertex and index buffer of a scene: meshes are added, uploaded, and deforming ones updated
+/// every frame.
 class GpuGeometry {
  public:
   /// Layout of the vertex buffer; mesh frame.

@@ -89,8 +89,8 @@ class GpuScene {
  public:
   explicit GpuScene(const scene::Scene& scene);
 
-  /// Copies transforms, poses and visibility from the scene, whose objects are those of the last call and new ones
-  /// behind them.
+  /// Copies transforms, poses and visibility from the scene, whose objects are those of the last call and new
+  /// ones behind them.
   void update(const scene::Scene& scene);
   /// Static objects that appeared, vanished or moved in the last update.
   const FixedChange& fixed_change() const { return fixed_change_; }
@@ -160,8 +160,9 @@ class GpuScene {
   std::unordered_map<const scene::Model*, std::size_t> first_texture_of_model_;
   std::unordered_set<const scene::Model*> levelled_;  ///< whose surfaces have their levels
   std::map<std::pair<const scene::Model*, const void*>, int> first_painted_part_;  ///< of a model in a paint
-  std::unordered_map<int, int> lit_material_;  ///< the same material for objects that are lit at their vertices
-  scene::SunShadows shadows_;                  ///< as the items have it
+  std::unordered_map<int, int>
+      lit_material_;             ///< the same material for objects that are lit at their vertices
+  scene::SunShadows shadows_;    ///< as the items have it
   std::vector<int> first_part_;  ///< of each object, in parts_: its model's, its paint's, or its own
   GpuGeometry geometry_;
   GpuVertexLight vertex_light_;

@@ -159,8 +159,8 @@ void Renderer::draw_view(const View& view) {
   draw_prepared(view);
 }
 
-/// Nodes of the scene may have come that make the first thing of their kind. Where its drawable cannot be made, the
-/// things are not drawn.
+/// Nodes of the scene may have come that make the first thing of their kind. Where its drawable cannot be
+/// made, the things are not drawn.
 void Renderer::follow_things(const scene::Scene& scene) {
   const std::size_t known = room_drawables_.size();
   if (const Status status = kinds_.follow(scene, room_drawables_); !status)

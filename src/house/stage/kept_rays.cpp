@@ -14,8 +14,8 @@ std::uint64_t casters(const scene::Scene& scene) {
   return hash.value();
 }
 
-/// Can a hierarchy of one follow the other? Their objects and models are the same, but for new ones, and what mirrors
-/// and casts shadows.
+/// Can a hierarchy of one follow the other? Their objects and models are the same, but for new ones, and what
+/// mirrors and casts shadows.
 bool can_follow(const scene::Scene& a, const scene::Scene& b) {
   const auto is_same = [](const scene::Object& one, const scene::Object& other) {
     return one.model == other.model && one.paint == other.paint &&

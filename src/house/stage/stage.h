@@ -139,8 +139,9 @@ class Stage {
   std::unique_ptr<render::Renderer> renderer_;
   std::unique_ptr<methods::Reflections> reflections_;
   methods::Settings shown_reflection_;
-  std::set<const scene::Model*> mirrors_;  ///< models of objects that take reflections, as the method knows them
-  std::size_t known_objects_ = 0;          ///< of the scene
+  std::set<const scene::Model*>
+      mirrors_;                    ///< models of objects that take reflections, as the method knows them
+  std::size_t known_objects_ = 0;  ///< of the scene
   gl::PassTimes pass_times_;
   double held_ms_ = 0.0;  ///< 0: no rate is held
   render::PictureScale scale_;

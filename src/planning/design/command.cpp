@@ -25,7 +25,8 @@ class Draft {
   void fail(Error error) { errors_.push_back(std::move(error)); }
   bool has_failed() const { return !errors_.empty(); }
 
-  /// The objects of these names or patterns, as they are; each once. Locked ones are an error where `to_change`.
+  /// The objects of these names or patterns, as they are; each once. Locked ones are an error where
+  /// `to_change`.
   std::vector<Node> objects(const Names& names, bool to_change = true);
   Node fresh(const char* type) const;
 
@@ -130,8 +131,8 @@ void Draft::place(Node& node, glm::dvec3 at) {
   if (at.z == rests) at.z = height_at(glm::dvec2(at));
   for (int axis = 0; axis < 3; ++axis)
     if (!(std::abs(at[axis]) <= max_reach_m))
-      return fail(error("{:g} m is further than {:g} km from the scene's origin; check the coordinates", at[axis],
-                        max_reach_m / 1000.0));
+      return fail(error("{:g} m is further than {:g} km from the scene's origin; check the coordinates",
+                        at[axis], max_reach_m / 1000.0));
   give(node, "position", glm::vec3(at));
 }
 
@@ -229,7 +230,8 @@ Node made_object(Draft& draft, const Insert& what) {
   draft.give(node, "name", what.name.empty() ? draft.free_name(what.kind) : what.name);
   draft.give(node, "kind", what.kind);
   draft.place(node, what.position);
-  if (!(std::abs(what.heading_deg) <= 1e6)) draft.fail(error("{:g} degrees are no heading", what.heading_deg));
+  if (!(std::abs(what.heading_deg) <= 1e6))
+    draft.fail(error("{:g} degrees are no heading", what.heading_deg));
   if (what.heading_deg != 0.0) draft.give(node, "heading_deg", glm::radians(what.heading_deg));
   if (what.width || what.depth || what.height)
     resize_one(draft, node, {{}, 1.0, what.width, what.depth, what.height});
@@ -245,7 +247,8 @@ struct Maker {
 
   void operator()(const Surface& c) const {
     Node node = draft.fresh(surface_type);
-    if (c.outline.size() < 3) return draft.fail(error("a surface has at least three corners, not {}", c.outline.size()));
+    if (c.outline.size() < 3)
+      return draft.fail(error("a surface has at least three corners, not {}", c.outline.size()));
     if (!c.name.empty()) draft.check_name(c.name);
     draft.give(node, "name", c.name.empty() ? draft.free_name("surface") : c.name);
     std::vector<glm::vec3> outline;
@@ -282,7 +285,9 @@ struct Maker {
     for (const Node& node : objects) {
       Node after = node;
       if (!is_surface(node) && c.is_absolute && &node == &objects.front())
-        draft.place(after, {c.by.x, c.by.y, c.by.z == rests ? draft.height_at(glm::dvec2(c.by), c.names) : c.by.z});  // exactly
+        draft.place(after,
+                    {c.by.x, c.by.y,
+                     c.by.z == rests ? draft.height_at(glm::dvec2(c.by), c.names) : c.by.z});  // exactly
       else
         shift(node, by, after);
       draft.changes(node, std::move(after));
@@ -346,7 +351,8 @@ struct Maker {
 
   void operator()(const Row& c) const {
     const double length = glm::distance(c.from, c.to);
-    if (!(length <= max_reach_m)) return draft.fail(error("a row of {:g} m is too long; check the coordinates", length));
+    if (!(length <= max_reach_m))
+      return draft.fail(error("a row of {:g} m is too long; check the coordinates", length));
     if (length < same_place_m) return draft.fail(error("the row begins where it ends; give two places"));
     if ((c.count != 0) == (c.spacing_m != 0.0) || c.count < 0 || c.spacing_m < 0.0)
       return draft.fail(error("say how many stand in the row (count N) or how far apart (spacing M)"));
@@ -358,13 +364,15 @@ struct Maker {
     const double across_deg = glm::degrees(std::atan2(-along.y, along.x));  // to the left of the row
     for (int i = 0; i < int(places); ++i) {
       const glm::dvec2 at = i + 1 == int(places) && c.count > 0 ? c.to : c.from + double(i) * step * along;
-      draft.adds(made_object(draft, {c.kind, glm::dvec3(at, rests), c.heading_deg.value_or(across_deg), {}, {}, {}}));
+      draft.adds(made_object(
+          draft, {c.kind, glm::dvec3(at, rests), c.heading_deg.value_or(across_deg), {}, {}, {}}));
     }
   }
 
   void operator()(const Space& c) const {
     const std::vector<Node> objects = draft.objects(c.names);
-    if (objects.size() < 3) return draft.fail(error("even spacing needs three objects or more, not {}", objects.size()));
+    if (objects.size() < 3)
+      return draft.fail(error("even spacing needs three objects or more, not {}", objects.size()));
     if (std::ranges::any_of(objects, is_surface)) return draft.fail(error("surfaces cannot be spaced"));
     const glm::dvec3 from = place_of(objects.front()), to = place_of(objects.back());
     for (std::size_t i = 1; i + 1 < objects.size(); ++i) {
@@ -461,7 +469,8 @@ struct Maker {
   void operator()(const Rename& c) const {
     const std::vector<Node> objects = draft.objects({c.from});
     draft.check_name(c.to);
-    if (objects.size() != 1) return draft.fail(error("\"{}\" names {} objects; name one", c.from, objects.size()));
+    if (objects.size() != 1)
+      return draft.fail(error("\"{}\" names {} objects; name one", c.from, objects.size()));
     Node after = objects.front();
     draft.give(after, "name", c.to);
     draft.changes(objects.front(), std::move(after));

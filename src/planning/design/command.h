@@ -1,5 +1,6 @@
-// Edits of a design: each command is a struct of typed arguments with a text form, and a function from the design as it
-// is to what changes. Mouse, keys, panels, messages of scripts and parvis plan --do use the same.
+// Edits of a design: each command is a struct of typed arguments with a text form, and a function from the
+// design as it is to what changes. Mouse, keys, panels, messages of scripts and parvis plan --do use the
+// same.
 #pragma once
 
 #include <functional>
@@ -18,7 +19,8 @@ using Names = std::vector<std::string>;
 /// A height that is not given: the object rests on what is below it.
 inline constexpr double rests = -1e30;
 
-/// insert KIND X,Y[,Z] [heading DEG] [width M] [depth M] [height M] [colour #RRGGBB] [material NAME] [name NAME]
+/// insert KIND X,Y[,Z] [heading DEG] [width M] [depth M] [height M] [colour #RRGGBB] [material NAME] [name
+/// NAME]
 struct Insert {
   std::string kind;
   glm::dvec3 position{0.0, 0.0, rests};
@@ -26,7 +28,8 @@ struct Insert {
   std::optional<double> width, depth, height;
   std::string colour = {}, material = {}, name = {};  ///< empty: as usual for the kind; the next free name
 };
-/// move NAMES by DX,DY[,DZ], or to X,Y[,Z]: the first object stands there, the others keep their distance to it.
+/// move NAMES by DX,DY[,DZ], or to X,Y[,Z]: the first object stands there, the others keep their distance to
+/// it.
 struct Move {
   Names names;
   glm::dvec3 by{0.0};
@@ -107,13 +110,14 @@ struct Rename {
   std::string from, to;
 };
 
-using Command = std::variant<Insert, Move, Turn, Resize, Delete, Duplicate, Row, Space, Align, Group, Lock, Paint, Swap,
-                             Apply, Surface, Rename>;
+using Command = std::variant<Insert, Move, Turn, Resize, Delete, Duplicate, Row, Space, Align, Group, Lock,
+                             Paint, Swap, Apply, Surface, Rename>;
 
 /// What a command does to one object.
 struct Change {
   std::optional<scene::Node> before, after;  ///< none: it is not there
-  std::string behind = {};  ///< of one that comes or goes: the name of the one that stands behind it; empty: none
+  std::string behind =
+      {};  ///< of one that comes or goes: the name of the one that stands behind it; empty: none
 };
 using Changes = std::vector<Change>;
 
@@ -121,13 +125,13 @@ using Changes = std::vector<Change>;
 struct DesignView {
   const scene::Scene& scene;
   const scene::LiveScene& live;
-  const scene::Node* design;                                          ///< null: there is none yet
+  const scene::Node* design;  ///< null: there is none yet
   /// Height of what objects rest on, without the objects that are named; empty: 0.
   std::function<double(glm::dvec2 at, const Names& without)> resting_height = {};
 };
 
-/// The changes of a command; none are made. Errors: names and kinds that do not exist, what is locked, sizes out of
-/// bounds, no names at all, a place that is taken or too far away.
+/// The changes of a command; none are made. Errors: names and kinds that do not exist, what is locked, sizes
+/// out of bounds, no names at all, a place that is taken or too far away.
 Result<Changes> changes_of(const DesignView& view, const Command& command);
 
 /// The command with all that it leaves open filled in, so that it does the same again: names and heights.

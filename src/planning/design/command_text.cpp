@@ -62,7 +62,8 @@ class WordReader {
   double number(const char* what) {
     const std::string text = word(what);
     const std::optional<double> value = number_of(text);
-    if (!value && problem_.empty()) fail(fmt::format("expected {} in place of \"{}\"", what, text.substr(0, 40)));
+    if (!value && problem_.empty())
+      fail(fmt::format("expected {} in place of \"{}\"", what, text.substr(0, 40)));
     return value.value_or(0.0);
   }
   /// Two numbers or three.
@@ -76,7 +77,8 @@ class WordReader {
       is_right = value.has_value();
       if (value) at[glm::length_t(i)] = *value;
     }
-    if (!is_right && problem_.empty()) fail(fmt::format("expected {} (X,Y or X,Y,Z, in metres) in place of \"{}\"", what, text.substr(0, 40)));
+    if (!is_right && problem_.empty())
+      fail(fmt::format("expected {} (X,Y or X,Y,Z, in metres) in place of \"{}\"", what, text.substr(0, 40)));
     return at;
   }
   void fail(std::string problem) {
@@ -129,7 +131,8 @@ Command read_move(WordReader& words) {
   Move move{words.names()};
   move.is_absolute = words.takes("to");
   if (!move.is_absolute && !words.takes("by")) words.fail("expected \"by\" or \"to\" behind the names");
-  move.by = words.place(move.is_absolute ? "where the first goes" : "how far", move.is_absolute ? rests : 0.0);
+  move.by =
+      words.place(move.is_absolute ? "where the first goes" : "how far", move.is_absolute ? rests : 0.0);
   return move;
 }
 
@@ -193,7 +196,10 @@ void expect(WordReader& words, const char* word) {
 
 const std::vector<Form>& forms() {
   static const std::vector<Form> all{
-      {"insert", "insert KIND X,Y[,Z] [heading DEG] [width M] [depth M] [height M] [colour #RRGGBB] [material NAME] [name NAME]", read_insert},
+      {"insert",
+       "insert KIND X,Y[,Z] [heading DEG] [width M] [depth M] [height M] [colour #RRGGBB] [material NAME] "
+       "[name NAME]",
+       read_insert},
       {"move", "move NAMES by DX,DY[,DZ] | move NAMES to X,Y[,Z]", read_move},
       {"turn", "turn NAMES by DEG [about X,Y] | turn NAMES to DEG", read_turn},
       {"resize", "resize NAMES [by FACTOR] [width M] [depth M] [height M]", read_resize},
@@ -220,9 +226,18 @@ const std::vector<Form>& forms() {
          group.group = words.word("the name of the group");
          return Command(group);
        }},
-      {"ungroup", "ungroup NAMES", [](WordReader& words) { return Command(Group{words.names(), {}}); }},
-      {"lock", "lock NAMES", [](WordReader& words) { return Command(Lock{words.names(), true}); }},
-      {"unlock", "unlock NAMES", [](WordReader& words) { return Command(Lock{words.names(), false}); }},
+      {"ungroup", "ungroup NAMES",
+       [](WordReader& words) {
+         return Command(Group{words.names(), {}});
+       }},
+      {"lock", "lock NAMES",
+       [](WordReader& words) {
+         return Command(Lock{words.names(), true});
+       }},
+      {"unlock", "unlock NAMES",
+       [](WordReader& words) {
+         return Command(Lock{words.names(), false});
+       }},
       {"colour", "colour NAMES #RRGGBB",
        [](WordReader& words) {
          Paint paint{words.names(), {}, {}};
@@ -281,8 +296,8 @@ struct Writer {
   std::string operator()(const Insert& c) const {
     return fmt::format("insert {} {}", c.kind, place(c.position)) +
            (c.heading_deg != 0.0 ? fmt::format(" heading {}", c.heading_deg) : "") + with("width", c.width) +
-           with("depth", c.depth) + with("height", c.height) + with("colour", c.colour) + with("material", c.material) +
-           with("name", c.name);
+           with("depth", c.depth) + with("height", c.height) + with("colour", c.colour) +
+           with("material", c.material) + with("name", c.name);
   }
   std::string operator()(const Move& c) const {
     return fmt::format("move {} {} {}", list(c.names), c.is_absolute ? "to" : "by", place(c.by));
@@ -292,8 +307,9 @@ struct Writer {
            (c.about ? fmt::format(" about {},{}", c.about->x, c.about->y) : "");
   }
   std::string operator()(const Resize& c) const {
-    return fmt::format("resize {}", list(c.names)) + (c.factor != 1.0 ? fmt::format(" by {}", c.factor) : "") +
-           with("width", c.width) + with("depth", c.depth) + with("height", c.height);
+    return fmt::format("resize {}", list(c.names)) +
+           (c.factor != 1.0 ? fmt::format(" by {}", c.factor) : "") + with("width", c.width) +
+           with("depth", c.depth) + with("height", c.height);
   }
   std::string operator()(const Delete& c) const { return "delete " + list(c.names); }
   std::string operator()(const Duplicate& c) const {
@@ -302,12 +318,14 @@ struct Writer {
   std::string operator()(const Row& c) const {
     return fmt::format("row {} from {},{} to {},{}", c.kind, c.from.x, c.from.y, c.to.x, c.to.y) +
            (c.count != 0 ? fmt::format(" count {}", c.count) : "") +
-           (c.spacing_m != 0.0 ? fmt::format(" spacing {}", c.spacing_m) : "") + with("heading", c.heading_deg);
+           (c.spacing_m != 0.0 ? fmt::format(" spacing {}", c.spacing_m) : "") +
+           with("heading", c.heading_deg);
   }
   std::string operator()(const Space& c) const { return "space " + list(c.names); }
   std::string operator()(const Align& c) const { return fmt::format("align {} {}", list(c.names), c.what); }
   std::string operator()(const Group& c) const {
-    return c.group.empty() ? "ungroup " + list(c.names) : fmt::format("group {} as {}", list(c.names), c.group);
+    return c.group.empty() ? "ungroup " + list(c.names)
+                           : fmt::format("group {} as {}", list(c.names), c.group);
   }
   std::string operator()(const Lock& c) const { return (c.locks ? "lock " : "unlock ") + list(c.names); }
   std::string operator()(const Paint& c) const {
@@ -315,7 +333,9 @@ struct Writer {
                             : fmt::format("colour {} {}", list(c.names), c.colour);
   }
   std::string operator()(const Swap& c) const { return fmt::format("swap {} for {}", list(c.names), c.kind); }
-  std::string operator()(const Apply& c) const { return fmt::format("apply {} to {}", c.from, list(c.names)); }
+  std::string operator()(const Apply& c) const {
+    return fmt::format("apply {} to {}", c.from, list(c.names));
+  }
   std::string operator()(const Surface& c) const {
     std::string text = "surface " + c.material;
     for (const glm::dvec3& corner : c.outline) text += fmt::format(" {}", place(corner));
@@ -342,11 +362,17 @@ struct Teller {
   std::string operator()(const Row& c) const { return fmt::format("inserted a row of {}", c.kind); }
   std::string operator()(const Space& c) const { return "spaced " + those(c.names) + " evenly"; }
   std::string operator()(const Align& c) const { return "aligned " + those(c.names); }
-  std::string operator()(const Group& c) const { return (c.group.empty() ? "ungrouped " : "grouped ") + those(c.names); }
+  std::string operator()(const Group& c) const {
+    return (c.group.empty() ? "ungrouped " : "grouped ") + those(c.names);
+  }
   std::string operator()(const Lock& c) const { return (c.locks ? "locked " : "unlocked ") + those(c.names); }
   std::string operator()(const Paint& c) const { return "painted " + those(c.names); }
-  std::string operator()(const Swap& c) const { return fmt::format("swapped {} for {}", those(c.names), c.kind); }
-  std::string operator()(const Apply& c) const { return fmt::format("applied {} to {}", c.from, those(c.names)); }
+  std::string operator()(const Swap& c) const {
+    return fmt::format("swapped {} for {}", those(c.names), c.kind);
+  }
+  std::string operator()(const Apply& c) const {
+    return fmt::format("applied {} to {}", c.from, those(c.names));
+  }
   std::string operator()(const Surface& c) const { return "inserted a surface of " + c.material; }
   std::string operator()(const Rename& c) const { return fmt::format("renamed {} to {}", c.from, c.to); }
 };
@@ -365,7 +391,8 @@ Result<Command> parse_command(std::string_view text) {
   Command command = form->read(words);
   if (words.problem().empty() && !words.is_at_end())
     words.fail(fmt::format("\"{}\" is one word too many", words.peek().substr(0, 40)));
-  if (!words.problem().empty()) return error("\"{}\": {}; it is written {}", text.substr(0, 80), words.problem(), form->form);
+  if (!words.problem().empty())
+    return error("\"{}\": {}; it is written {}", text.substr(0, 80), words.problem(), form->form);
   return command;
 }
 

@@ -50,7 +50,9 @@ Json point(const glm::dvec3& at) { return {at.x, at.y, at.z}; }
 
 }  // namespace
 
-fs::path file_of(const Session& session) { return session.design() ? session.design()->where.file : std::string(); }
+fs::path file_of(const Session& session) {
+  return session.design() ? session.design()->where.file : std::string();
+}
 
 Status save(const Session& session, const fs::path& scene_script, const fs::path& file) {
   const scene::Node* node = session.design();
@@ -58,8 +60,9 @@ Status save(const Session& session, const fs::path& scene_script, const fs::path
   std::error_code code;
   const fs::path folder = fs::weakly_canonical(scene_script, code).parent_path();
   if (fs::weakly_canonical(file, code).parent_path() != folder)
-    return error("{}: a design lies in the folder of its scene, for files are named relative to it; write it to {}",
-                 file.string(), (folder / file.filename()).string());
+    return error(
+        "{}: a design lies in the folder of its scene, for files are named relative to it; write it to {}",
+        file.string(), (folder / file.filename()).string());
   const fs::path from = file_of(session);
   scene::ScriptNode tree;
   if (!from.empty()) {
@@ -70,12 +73,13 @@ Status save(const Session& session, const fs::path& scene_script, const fs::path
     tree = *std::move(read);
     scene::ScriptNode* design = design_in(tree, session.name());
     if (!design)
-      return error("{}: the design \"{}\" is not there any more; the file was changed meanwhile", from.string(),
-                   session.name());
+      return error("{}: the design \"{}\" is not there any more; the file was changed meanwhile",
+                   from.string(), session.name());
     put_objects(*design, *node);
     // A file beside the scene that is no scene by itself includes it.
     if (fs::weakly_canonical(file, code) != from && from != fs::weakly_canonical(scene_script, code))
-      tree.comments_before.insert(tree.comments_before.begin(), "// A design of " + scene_script.filename().string());
+      tree.comments_before.insert(tree.comments_before.begin(),
+                                  "// A design of " + scene_script.filename().string());
   } else {
     scene::ScriptNode include;
     include.type = scene::include_type;
@@ -120,7 +124,8 @@ Status read_json(const std::string& text, const std::string& file, Session& sess
   if (whole["parvis_design"].get<long>() > json_version)
     return error("{}: the design is of version {}, newer than this program ({}); open it with that one", file,
                  whole["parvis_design"].get<long>(), json_version);
-  if (!whole.contains("objects") || !whole["objects"].is_array()) return error("{}: expected a list \"objects\"", file);
+  if (!whole.contains("objects") || !whole["objects"].is_array())
+    return error("{}: expected a list \"objects\"", file);
   const auto numbers = [](const Json& entry, std::size_t count) {
     std::vector<double> values;
     if (entry.is_array() && entry.size() == count)
@@ -134,13 +139,16 @@ Status read_json(const std::string& text, const std::string& file, Session& sess
   std::size_t number = 0;
   for (const Json& entry : whole["objects"]) {
     ++number;
-    const auto wrong = [&](const std::string& what) { return error("{}: object {}: {}", file, number, what); };
+    const auto wrong = [&](const std::string& what) {
+      return error("{}: object {}: {}", file, number, what);
+    };
     if (!entry.is_object()) return wrong("expected an object");
     const std::string kind = text_in(entry, "kind"), name = text_in(entry, "name");
     Status status = Done{};
     if (kind == "ground") {
       Surface surface{text_in(entry, "material"), {}, text_in(entry, "colour"), name};
-      if (!entry.contains("outline") || !entry["outline"].is_array()) return wrong("a ground surface has an \"outline\"");
+      if (!entry.contains("outline") || !entry["outline"].is_array())
+        return wrong("a ground surface has an \"outline\"");
       for (const Json& corner : entry["outline"]) {
         const std::vector<double> at = numbers(corner, 3);
         if (at.empty()) return wrong("a corner is [x, y, z] in metres");
@@ -148,14 +156,16 @@ Status read_json(const std::string& text, const std::string& file, Session& sess
       }
       status = session.run(Command(surface));
     } else {
-      const std::vector<double> at = entry.contains("position") ? numbers(entry["position"], 3) : std::vector<double>();
+      const std::vector<double> at =
+          entry.contains("position") ? numbers(entry["position"], 3) : std::vector<double>();
       if (at.empty()) return wrong("\"position\" is [x, y, z] in metres");
       Insert insert{kind, {at[0], at[1], at[2]}};
       insert.name = name;
       if (entry.contains("heading_deg") && entry["heading_deg"].is_number())
         insert.heading_deg = entry["heading_deg"].get<double>();
       const Kind* known = find_kind(session.view().scene, kind);
-      if (const std::vector<double> size = entry.contains("size") ? numbers(entry["size"], 3) : std::vector<double>();
+      if (const std::vector<double> size =
+              entry.contains("size") ? numbers(entry["size"], 3) : std::vector<double>();
           !size.empty() && known) {
         if (known->may_change(Changeable::width)) insert.width = size[0];
         if (known->may_change(Changeable::depth)) insert.depth = size[1];

@@ -18,7 +18,9 @@ using scene::Node, scene::SceneBuilder;
 
 scene::NodeSchema design_schema() {
   return {.type = design_type,
-          .help = "A project: objects and ground surfaces that people place, move and compare. A scene holds any number.",
+          .help =
+              "A project: objects and ground surfaces that people place, move and compare. A scene holds any "
+              "number.",
           .attributes = {text("name", "by which commands and scenarios call it").required(),
                          text("label", "what people call it"), scene::visible_attribute()},
           .stands_in = {scene::top_level, "group", "scenario"},
@@ -45,11 +47,11 @@ scene::NodeSchema placed_schema() {
                              .by_default("0")
                              .live(),
                          length("width", "along its front"), length("depth", "across its front"),
-                         length("height", "of all of it"),
-                         colour("colour", "of its main part").live(),
+                         length("height", "of all of it"), colour("colour", "of its main part").live(),
                          choice("material", "of its main part", std::move(materials)).live(),
                          text("group", "objects of one group are selected together"),
-                         flag("locked", "commands leave it as it is").by_default("0"), scene::visible_attribute()},
+                         flag("locked", "commands leave it as it is").by_default("0"),
+                         scene::visible_attribute()},
           .stands_in = {design_type},
           .example = "design(name=\"a\") { placed(kind=\"umbrella\", position=\"4 2 0\", height=3) }"};
 }
@@ -57,17 +59,19 @@ scene::NodeSchema placed_schema() {
 scene::NodeSchema surface_schema() {
   return {.type = surface_type,
           .help = "A ground surface of a design, within an outline that does not cross itself.",
-          .attributes = {text("name", "by which commands call it"),
-                         points("outline", "its corners").in("m").required().live(),
-                         choice("material", "what it is covered with", surface_names()).by_default("paving").live(),
-                         colour("colour", "of a plain one; tints the others").by_default("#FFFFFF").live(),
-                         text("group", "objects of one group are selected together"),
-                         flag("locked", "commands leave it as it is").by_default("0"), scene::visible_attribute()},
+          .attributes =
+              {text("name", "by which commands call it"),
+               points("outline", "its corners").in("m").required().live(),
+               choice("material", "what it is covered with", surface_names()).by_default("paving").live(),
+               colour("colour", "of a plain one; tints the others").by_default("#FFFFFF").live(),
+               text("group", "objects of one group are selected together"),
+               flag("locked", "commands leave it as it is").by_default("0"), scene::visible_attribute()},
           .stands_in = {design_type},
           .example = "design(name=\"a\") { surface(material=lawn, outline=\"0 0, 8 0, 8 6\") }"};
 }
 
-/// As given, else as usual for the kind. What a round or square plan has only one length for follows the width.
+/// As given, else as usual for the kind. What a round or square plan has only one length for follows the
+/// width.
 glm::dvec3 size_of(const Node& node, const Kind& kind) {
   glm::dvec3 size = kind.size_m;
   if (node.gives("width")) size.x = node.number("width");
@@ -101,7 +105,8 @@ void add_plant(const Node& node, const Kind& kind, const glm::dvec3& size, const
   vegetation::PlantRecipe recipe;
   recipe.kind = vegetation::find_kind(kind.plant);
   if (!recipe.kind)
-    return builder.fail(error_at(node.where, "kind \"{}\": no plant is called \"{}\"", kind.name, kind.plant));
+    return builder.fail(
+        error_at(node.where, "kind \"{}\": no plant is called \"{}\"", kind.name, kind.plant));
   const bool has_bed = !kind.shape.empty();
   recipe.height_m = has_bed ? recipe.kind->height_m : float(size.z);
   recipe.length_m = has_bed ? float(size.x) - 0.24f : float(size.x);
@@ -136,7 +141,8 @@ void add_file(const Node& node, const Kind& kind, const glm::dvec3& size, scene:
 void build_placed(const Node& node, SceneBuilder& builder, const formats::Readers& readers) {
   const Kind* kind = find_kind(builder.scene, node.text("kind"));
   if (!kind)
-    return builder.fail(error_at(node.where_of("kind"), "{}", no_such_kind(builder.scene, node.text("kind"))));
+    return builder.fail(
+        error_at(node.where_of("kind"), "{}", no_such_kind(builder.scene, node.text("kind"))));
   const glm::dvec3 size = size_of(node, *kind);
   if (Status status = check_size(node, *kind, size); !status) return builder.fail(status.errors());
   scene::Object object;
@@ -150,9 +156,9 @@ void build_placed(const Node& node, SceneBuilder& builder, const formats::Reader
   if (kind->shape.empty()) return;
   const ShapeRequest request{glm::vec3(size), node.gives("colour") ? node.vec3("colour") : kind->colour,
                              node.gives("material") ? node.text("material") : ""};
-  const std::string key = fmt::format("design:{}:{:.4f}:{:.4f}:{:.4f}:{:.4f}:{:.4f}:{:.4f}:{}", kind->shape, size.x,
-                                      size.y, size.z, request.colour.x, request.colour.y, request.colour.z,
-                                      request.material);
+  const std::string key =
+      fmt::format("design:{}:{:.4f}:{:.4f}:{:.4f}:{:.4f}:{:.4f}:{:.4f}:{}", kind->shape, size.x, size.y,
+                  size.z, request.colour.x, request.colour.y, request.colour.z, request.material);
   object.model = builder.shared_model(key, [&] {
     auto model = std::make_shared<scene::Model>(shape_model(kind->shape, request));
     model->name = kind->name;
@@ -169,8 +175,9 @@ void build_surface(const Node& node, SceneBuilder& builder) {
     return std::make_shared<scene::Model>(surface_model(outline, node.text("material"), node.vec3("colour")));
   });
   if (object.model->parts.empty())
-    return builder.fail(error_at(node.where_of("outline"),
-                                 "the outline has no area or crosses itself; give at least three corners in order"));
+    return builder.fail(
+        error_at(node.where_of("outline"),
+                 "the outline has no area or crosses itself; give at least three corners in order"));
   object.name = node.text("name");
   object.world_from_model = builder.world_from_parent();
   object.is_visible = builder.is_visible() && node.flag("visible");
@@ -193,9 +200,10 @@ void add_design_nodes(House& house) {
   registry.add(design_schema(), [](const Node& node, SceneBuilder& builder) {
     builder.build(node.children, glm::mat4(1.0f), node.flag("visible"));
   });
-  registry.add(placed_schema(), [readers = &house.get<formats::Readers>()](const Node& node, SceneBuilder& builder) {
-    build_placed(node, builder, *readers);
-  });
+  registry.add(placed_schema(),
+               [readers = &house.get<formats::Readers>()](const Node& node, SceneBuilder& builder) {
+                 build_placed(node, builder, *readers);
+               });
   registry.add(surface_schema(), build_surface);
 }
 

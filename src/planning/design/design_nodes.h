@@ -21,8 +21,8 @@ std::vector<const scene::Node*> designs_of(const scene::LiveScene& live);
 /// An object or ground surface as plain data. `node` is a placed or a surface.
 PlacedObject placed_object(const scene::Scene& scene, const scene::Node& node, const std::string& design);
 
-/// All objects and ground surfaces of all designs, or of one; where scenarios show several, of those that are shown
-/// where `only_visible`.
+/// All objects and ground surfaces of all designs, or of one; where scenarios show several, of those that are
+/// shown where `only_visible`.
 std::vector<PlacedObject> placed_objects(const scene::Scene& scene, const scene::LiveScene& live,
                                          const std::string& design = "", bool only_visible = false);
 

@@ -96,7 +96,8 @@ Result<JournalContent> read_journal(const std::filesystem::path& file) {
       if (!line.starts_with(head)) return error_at(where, "this is no journal of a design");
       const std::string wanted = std::string(line.substr(head.size()));
       if (std::strtol(wanted.c_str(), nullptr, 10) > version)
-        return error_at(where, "the journal is of a newer version of this program ({}); open it with that one",
+        return error_at(where,
+                        "the journal is of a newer version of this program ({}); open it with that one",
                         wanted.substr(0, 20));
       continue;
     }
@@ -113,7 +114,8 @@ Result<JournalContent> read_journal(const std::filesystem::path& file) {
       content.name = argument;
     else if (word == "base")
       content.base = argument, has_base = true;
-    else if (const auto known = std::ranges::find(words, word, [](const char* each) { return std::string_view(each); });
+    else if (const auto known =
+                 std::ranges::find(words, word, [](const char* each) { return std::string_view(each); });
              known != words.end())
       content.entries.push_back({JournalEntry::What(known - words.begin()), argument});
     else
@@ -132,7 +134,8 @@ Journal::~Journal() {
   if (file_ >= 0) close(file_);
 }
 
-Result<Journal> Journal::begin(const std::filesystem::path& file, const std::string& name, const std::string& base) {
+Result<Journal> Journal::begin(const std::filesystem::path& file, const std::string& name,
+                               const std::string& base) {
   // Whole or not at all: a journal without its base is of no use.
   const std::string text =
       std::string(head) + std::to_string(version) + "\n" + line_of("name", name) + line_of("base", base);
@@ -144,7 +147,8 @@ Result<Journal> Journal::resume(const std::filesystem::path& file) {
   Journal journal;
   journal.path_ = file;
   journal.file_ = open(file.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW);
-  if (journal.file_ < 0) return error("{}: the journal cannot be opened: {}", file.string(), std::strerror(errno));
+  if (journal.file_ < 0)
+    return error("{}: the journal cannot be opened: {}", file.string(), std::strerror(errno));
   const Result<std::string> text = read_file(file, max_journal_bytes);
   if (!text) return text.errors();
   const std::size_t whole = text->rfind('\n') + 1;

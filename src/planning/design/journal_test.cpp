@@ -1,4 +1,5 @@
-// Nothing is lost: journals that are replayed, cut, damaged, of another design, and of programs that were killed.
+// Nothing is lost: journals that are replayed, cut, damaged, of another design, and of programs that were
+// killed.
 #include "planning/design/journal.h"
 
 #include <gtest/gtest.h>
@@ -114,7 +115,8 @@ TEST_F(JournalTest, OneThatIsOfNoUseIsLeftAsItIs) {
   EXPECT_NE(refused(damaged, plain).find("damaged"), std::string::npos);
 }
 
-/// What a program does that is killed: commands of one seed, each acknowledged by a byte when it has returned.
+/// What a program does that is killed: commands of one seed, each acknowledged by a byte when it has
+/// returned.
 [[noreturn]] void work(Session& session, int acknowledge) {
   Random random(5);
   for (;;) {
@@ -146,7 +148,8 @@ TEST_F(JournalTest, AProgramThatIsKilledLosesNoCommand) {
     open();
     keep();
     const std::string restored = session_->script();
-    // The same commands once more: the design is as it was after the last one that was acknowledged, or one later.
+    // The same commands once more: the design is as it was after the last one that was acknowledged, or one
+    // later.
     std::filesystem::remove(file());
     open();
     Random random(5);
@@ -174,8 +177,10 @@ TEST_F(JournalTest, ADesignInJsonComesBackAsItWas) {
     return read ? "" : to_string(read.errors());
   };
   EXPECT_NE(refused(json.substr(0, json.size() / 2)).find("its end is missing"), std::string::npos);
-  EXPECT_NE(refused("{\"parvis_design\": 9, \"objects\": []}").find("newer than this program"), std::string::npos);
-  EXPECT_NE(refused("{\"parvis_design\": 1, \"objects\": [{\"kind\": \"bench\"}]}").find("object 1"), std::string::npos);
+  EXPECT_NE(refused("{\"parvis_design\": 9, \"objects\": []}").find("newer than this program"),
+            std::string::npos);
+  EXPECT_NE(refused("{\"parvis_design\": 1, \"objects\": [{\"kind\": \"bench\"}]}").find("object 1"),
+            std::string::npos);
   EXPECT_NE(refused("[]").find("no design"), std::string::npos);
 }
 

@@ -28,9 +28,9 @@ scene::NodeSchema kind_schema() {
   return {.type = "kind",
           .help = "A kind of object that designs may place, beside those that the program has.",
           .attributes = {text("name", "by which placed(kind=...) and commands call it").required(),
-                         text("label", "what people call it"),
-                         text("label_fr", "the same in French"),
-                         choice("tab", "of the catalogue", {"seats", "shade", "green", "street", "own"}).by_default("own"),
+                         text("label", "what people call it"), text("label_fr", "the same in French"),
+                         choice("tab", "of the catalogue", {"seats", "shade", "green", "street", "own"})
+                             .by_default("own"),
                          file("file", "a model, with its foot at the origin and its front towards -y"),
                          choice("shape", "that is generated, in place of a file", shape_names()),
                          text("plant", "a kind of plant that grows on it, or in place of a file"),
@@ -51,7 +51,8 @@ Kind kind_of(const scene::Node& node) {
   kind.label_fr = node.gives("label_fr") ? node.text("label_fr") : kind.label;
   kind.tab = node.text("tab"), kind.plant = node.text("plant"), kind.file = node.file("file").string();
   if (node.gives("shape")) kind.shape = node.text("shape");
-  kind.size_m = exact_decimals(node.vec3("size")), kind.min_m = exact_decimals(node.vec3("min")), kind.max_m = exact_decimals(node.vec3("max"));
+  kind.size_m = exact_decimals(node.vec3("size")), kind.min_m = exact_decimals(node.vec3("min")),
+  kind.max_m = exact_decimals(node.vec3("max"));
   const std::string changes = node.text("changes");
   for (const auto& [name, what] : changeables)
     if (changes.find(name) != std::string::npos) kind.changes.push_back(what);
@@ -100,7 +101,8 @@ void add_kind_node(scene::NodeRegistry& registry) {
   registry.add(kind_schema(), [](const scene::Node& node, scene::SceneBuilder& builder) {
     const Kind kind = kind_of(node);
     if (kind.file.empty() && kind.shape.empty() && kind.plant.empty())
-      return builder.fail(error_at(node.where, "kind \"{}\" has nothing to show; give file=, shape= or plant=", kind.name));
+      return builder.fail(
+          error_at(node.where, "kind \"{}\" has nothing to show; give file=, shape= or plant=", kind.name));
     std::vector<Kind>& own = builder.scene.data<Kinds>().own;
     if (const auto known = std::ranges::find(own, kind.name, &Kind::name); known != own.end())
       *known = kind;

@@ -25,7 +25,8 @@ std::string random_command(Random& random, const Session& session) {
                          2 + random.index(4));
     case 2:
     case 3:
-      return fmt::format("move {} by {:.3f},{:.3f}", any(), random.uniform(-2.0f, 2.0f), random.uniform(-2.0f, 2.0f));
+      return fmt::format("move {} by {:.3f},{:.3f}", any(), random.uniform(-2.0f, 2.0f),
+                         random.uniform(-2.0f, 2.0f));
     case 4:
       return fmt::format("move {} to {}", any(), somewhere(random));
     case 5:

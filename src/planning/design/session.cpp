@@ -59,7 +59,8 @@ Result<Session> Session::open(scene::Scene& scene, scene::LiveScene& live, const
   for (const Node* each : designs)
     for (const Node& object : each->children)
       if (each->text("name") == session.name_ && !object.gives("name"))
-        return error_at(object.where, "this object has no name; give it one (name=), so that commands can call it");
+        return error_at(object.where,
+                        "this object has no name; give it one (name=), so that commands can call it");
   session.saved_script_ = session.script();
   return session;
 }
@@ -93,7 +94,8 @@ Status Session::select_by(const std::vector<std::string>& words) {
   };
   if (how == "all" && words.size() == 2) return choose([](const PlacedObject&) { return true; });
   if (how == "none" && words.size() == 2) return choose([](const PlacedObject&) { return false; });
-  if (how == "kind" && words.size() == 3) return choose([&](const PlacedObject& each) { return each.kind == words[2]; });
+  if (how == "kind" && words.size() == 3)
+    return choose([&](const PlacedObject& each) { return each.kind == words[2]; });
   if (how == "group" && words.size() == 3)
     return choose([&](const PlacedObject& each) { return each.group == words[2]; });
   if (how == "like" && words.size() == 3) {
@@ -114,7 +116,8 @@ Status Session::select_by(const std::vector<std::string>& words) {
     });
   }
   if (words.size() != 2)
-    return error("select is written: select NAMES | all | none | kind KIND | like NAME | group NAME | box X,Y X,Y");
+    return error(
+        "select is written: select NAMES | all | none | kind KIND | like NAME | group NAME | box X,Y X,Y");
   Names names;
   for (std::size_t at = 0; at <= how.size();) {
     const std::size_t end = std::min(how.find(',', at), how.size());
@@ -155,7 +158,8 @@ Status Session::run(std::string_view text) {
 Status Session::run(Command command) {
   Result<Command> whole = resolved(view(), std::move(command));
   if (!whole) return whole.errors();
-  if (Result<Changes> changes = changes_of(view(), *whole); !changes) return changes.errors();  // before it is noted
+  if (Result<Changes> changes = changes_of(view(), *whole); !changes)
+    return changes.errors();  // before it is noted
   if (Status status = journal_.append({JournalEntry::What::command, text_of(*whole)}); !status) return status;
   Status status = do_step(*whole);
   if (!status)  // what was noted is taken back there, too
@@ -193,7 +197,8 @@ Status Session::do_step(const Command& command) {
 Status Session::apply_one(const Change& change, bool forward) {
   scene::LiveScene& live = live_;
   scene::Scene& scene = scene_;
-  const std::optional<Node>&from = forward ? change.before : change.after, &to = forward ? change.after : change.before;
+  const std::optional<Node>&from = forward ? change.before : change.after,
+        &to = forward ? change.after : change.before;
   const Node* here = from ? child_of(design(), from->text("name")) : nullptr;
   assert(!from || here);
   if (!to) return live.remove(scene, *here);
@@ -260,8 +265,8 @@ Status Session::replace_all(const std::string& base, const std::filesystem::path
     while (!node->children.empty())
       if (Status status = live.remove(scene_, node->children.back()); !status) return status;
   if (base.empty() || !design()) return Done{};
-  const auto restored =
-      live.insert_script(scene_, base, {design(), nullptr}, Roots(scene_.get().file.parent_path()), file.string());
+  const auto restored = live.insert_script(scene_, base, {design(), nullptr},
+                                           Roots(scene_.get().file.parent_path()), file.string());
   if (!restored) return restored.errors();
   return Done{};
 }
@@ -285,9 +290,10 @@ Result<std::string> Session::keep_journal(const std::filesystem::path& file) {
     else
       ++unsaved;
   if (content->name != name_ || !known.contains(hash_of(now)))
-    return error("{}: this journal is of another design, or the design was changed beside it; it is left as it is. "
-                 "Move it away to begin a new one",
-                 file.string());
+    return error(
+        "{}: this journal is of another design, or the design was changed beside it; it is left as it is. "
+        "Move it away to begin a new one",
+        file.string());
   // From the beginning: then all steps can be undone, those before the design was saved as well.
   if (Status status = replace_all(content->base, file); !status) return status.errors();
   int line = 3;
@@ -298,7 +304,8 @@ Result<std::string> Session::keep_journal(const std::filesystem::path& file) {
       const Result<Command> command = parse_command(entry.text);
       status = command ? do_step(*command) : Status(command.errors());
       const bool was_taken_back = !status && &entry != &content->entries.back() &&
-                                  (&entry + 1)->what == JournalEntry::What::undo && (&entry + 1)->text == "failed";
+                                  (&entry + 1)->what == JournalEntry::What::undo &&
+                                  (&entry + 1)->text == "failed";
       if (was_taken_back) status = Done{};
     } else if (entry.what == JournalEntry::What::undo && entry.text != "failed") {
       status = take_step(done_, undone_, false);
@@ -308,8 +315,10 @@ Result<std::string> Session::keep_journal(const std::filesystem::path& file) {
       saved_script_ = script();
     }
     if (!status)
-      return error_at({file.string(), line, 1}, "the journal cannot be followed further: {}; what it says before this "
-                      "line has been done", status.errors().front().message);
+      return error_at({file.string(), line, 1},
+                      "the journal cannot be followed further: {}; what it says before this "
+                      "line has been done",
+                      status.errors().front().message);
   }
   Result<Journal> journal = Journal::resume(file);
   if (!journal) return journal.errors();
@@ -329,7 +338,8 @@ std::filesystem::path journal_file(const std::filesystem::path& scene_script, co
 }
 
 Session::Heights resting_heights(const scene::Scene& scene) {
-  const auto kept = std::make_shared<std::unique_ptr<reference::RayScene>>();  // copies of the function share it
+  const auto kept =
+      std::make_shared<std::unique_ptr<reference::RayScene>>();  // copies of the function share it
   return [&scene, kept](glm::dvec2 at, const Names& without) {
     constexpr float above_m = 2000.0f, max_rise_m = 1.2f, min_up = 0.5f;
     if (!*kept)
@@ -350,7 +360,8 @@ Session::Heights resting_heights(const scene::Scene& scene) {
     }
     if (heights.empty()) return 0.0;
     const float lowest = heights.back();
-    const auto rest = std::ranges::find_if(heights, [&](float height) { return height < lowest + max_rise_m; });
+    const auto rest =
+        std::ranges::find_if(heights, [&](float height) { return height < lowest + max_rise_m; });
     return std::round(double(*rest) * 1e4) * 1e-4;
   };
 }

@@ -19,7 +19,8 @@ TEST_F(DesignTest, WhatIsTypedStandsThere) {
   EXPECT_EQ(bench.size_m, glm::dvec3(2.0, 0.5, 0.45));
   EXPECT_NEAR(bench.outline.front().y, 3.05 + 1.0, 1e-9) << "its front looks to the east";
   ASSERT_EQ(visible(), 1);
-  EXPECT_NEAR(glm::distance(glm::vec3(scene_.objects[0].world_from_model[3]), glm::vec3(12.345f, 3.05f, 0)), 0, 1e-6);
+  EXPECT_NEAR(glm::distance(glm::vec3(scene_.objects[0].world_from_model[3]), glm::vec3(12.345f, 3.05f, 0)),
+              0, 1e-6);
   const Bounds box = bounds(*scene_.objects[0].model);
   EXPECT_NEAR(box.size().x, 2.0f, 1e-5f);
   EXPECT_NEAR(box.size().z, 0.45f, 1e-5f);
@@ -77,7 +78,8 @@ TEST_F(DesignTest, CommandsChangeWhatTheySay) {
 TEST_F(DesignTest, ACommandThatCannotBeDoneSaysWhyAndChangesNothing) {
   open();
   run("insert bench_wood 1,1");
-  EXPECT_EQ(refusal("insert bench_wod 1,1").substr(0, 58), "the catalogue has no kind \"bench_wod\"; did you mean \"bench");
+  EXPECT_EQ(refusal("insert bench_wod 1,1").substr(0, 58),
+            "the catalogue has no kind \"bench_wod\"; did you mean \"bench");
   EXPECT_NE(refusal("insert bench_wood 1e30,0").find("km from the scene's origin"), std::string::npos);
   EXPECT_NE(refusal("insert bench_wood 1,1").find("stands there already"), std::string::npos);
   EXPECT_NE(refusal("insert bench_wood 1").find("X,Y or X,Y,Z"), std::string::npos);
@@ -96,12 +98,28 @@ TEST_F(DesignTest, ACommandThatCannotBeDoneSaysWhyAndChangesNothing) {
 }
 
 TEST_F(DesignTest, TextFormsAreReadAsTheSameCommand) {
-  for (const char* text :
-       {"insert bench_wood 12.345,3.05,0.15 heading 90 width 2.4 colour #804020 name b", "move a,b by 0.5,-1,0",
-        "move a to 3,4,0", "turn a by 15 about 1,2", "turn a to 90", "resize a by 1.5", "resize a width 3 height 1",
-        "delete a,b", "duplicate a by 1,0,0", "row bollard from 0,0 to 10,0 spacing 2.5 heading 0", "space a,b,c",
-        "align a,b heading", "group a as g", "ungroup a", "lock a", "unlock a", "colour a #102030", "material a stone",
-        "swap a for b", "apply a to b,c", "surface lawn 0,0,0 1,0,0 1,1,0 name s", "rename a as b"}) {
+  for (const char* text : {"insert bench_wood 12.345,3.05,0.15 heading 90 width 2.4 colour #804020 name b",
+                           "move a,b by 0.5,-1,0",
+                           "move a to 3,4,0",
+                           "turn a by 15 about 1,2",
+                           "turn a to 90",
+                           "resize a by 1.5",
+                           "resize a width 3 height 1",
+                           "delete a,b",
+                           "duplicate a by 1,0,0",
+                           "row bollard from 0,0 to 10,0 spacing 2.5 heading 0",
+                           "space a,b,c",
+                           "align a,b heading",
+                           "group a as g",
+                           "ungroup a",
+                           "lock a",
+                           "unlock a",
+                           "colour a #102030",
+                           "material a stone",
+                           "swap a for b",
+                           "apply a to b,c",
+                           "surface lawn 0,0,0 1,0,0 1,1,0 name s",
+                           "rename a as b"}) {
     const Result<Command> command = parse_command(text);
     ASSERT_TRUE(command) << text << to_string(command.errors());
     EXPECT_EQ(text_of(*command), text);

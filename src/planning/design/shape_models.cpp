@@ -20,7 +20,8 @@ constexpr float whole = 10.0f;  // of panels: one square
 
 scene::Material plain(const char* name, vec3 colour, float roughness, float metallic = 0.0f) {
   scene::Material material;
-  material.name = name, material.base_colour = colour, material.roughness = roughness, material.metallic = metallic;
+  material.name = name, material.base_colour = colour, material.roughness = roughness,
+  material.metallic = metallic;
   return material;
 }
 
@@ -82,7 +83,8 @@ scene::Model bench_wood(const ShapeRequest& request) {
   for (int i = 0; i < count; ++i) {
     const float reach = std::max(half - 0.22f, 0.1f), x = -reach + 2.0f * reach * float(i) / float(count - 1);
     append(frames, tube({{{x, 0.24f, 0.0f}, 0.03f}, {{x, 0.2f, 0.42f}, 0.025f}}));
-    append(frames, tube({{{x, -0.3f, 0.0f}, 0.03f}, {{x, -0.25f, 0.42f}, 0.028f}, {{x, -0.37f, 0.95f}, 0.02f}}));
+    append(frames,
+           tube({{{x, -0.3f, 0.0f}, 0.03f}, {{x, -0.25f, 0.42f}, 0.028f}, {{x, -0.37f, 0.95f}, 0.02f}}));
     append(frames, tube({{{x, 0.22f, 0.41f}, 0.022f}, {{x, -0.25f, 0.41f}, 0.022f}}));
   }
   scene::Model model;
@@ -99,7 +101,8 @@ scene::Model bench_stone(const ShapeRequest& request) {
   const float foot = std::min(0.3f, 0.25f * request.size_m.x), in = std::min(0.18f, 0.15f * request.size_m.x);
   for (const float side : {-1.0f, 1.0f}) {
     const float a = side * (half.x - in), b = side * (half.x - in - foot);
-    append(stone, box({std::min(a, b), -0.8f * half.y, 0.0f}, {std::max(a, b), 0.8f * half.y, height - slab}));
+    append(stone,
+           box({std::min(a, b), -0.8f * half.y, 0.0f}, {std::max(a, b), 0.8f * half.y, height - slab}));
   }
   scene::Model model;
   add(model, "stone", std::move(stone), main_material(request, "stone"));
@@ -109,7 +112,8 @@ scene::Model bench_stone(const ShapeRequest& request) {
 scene::Model table(const ShapeRequest& request) {
   const vec3 size = request.size_m, half = 0.5f * size;
   scene::Model model;
-  add(model, "top", box({-half.x, -half.y, size.z - 0.04f}, {half.x, half.y, size.z}), main_material(request, "wood"));
+  add(model, "top", box({-half.x, -half.y, size.z - 0.04f}, {half.x, half.y, size.z}),
+      main_material(request, "wood"));
   add(model, "legs", corner_posts({size.x, size.y, size.z - 0.04f}, 0.08f, 0.025f), cast_iron());
   return model;
 }
@@ -121,7 +125,8 @@ scene::Model umbrella(const ShapeRequest& request) {
   scene::Material cloth = main_material(request, "wood");
   cloth.name = "cloth", cloth.is_double_sided = true, cloth.translucency = 0.25f, cloth.roughness = 0.9f;
   const float depth = request.size_m.y / request.size_m.x;
-  Mesh canopy = turned({{radius, rim - 0.18f}, {radius, rim}, {0.55f * radius, rim + 0.21f * radius}, {0.03f, top}}, ribs);
+  Mesh canopy = turned(
+      {{radius, rim - 0.18f}, {radius, rim}, {0.55f * radius, rim + 0.21f * radius}, {0.03f, top}}, ribs);
   Mesh pole = turned({{0.025f, 0.06f}, {0.025f, top - 0.02f}, {0.04f, top}, {0.005f, top + 0.06f}}, 12);
   append(pole, turned({{0.32f, 0.0f}, {0.32f, 0.05f}, {0.05f, 0.07f}, {0.03f, 0.3f}}, 24));
   scene::Model model;
@@ -136,7 +141,8 @@ scene::Model kiosk(const ShapeRequest& request) {
   const float eaves = 0.78f * size.z;
   Mesh body = box({-half.x, -half.y, 0.0f}, {half.x, half.y, 1.0f}), upper, dark;
   for (const float side : {-1.0f, 1.0f})
-    append(upper, box({side > 0 ? half.x - 0.12f : -half.x, -half.y, 1.0f}, {side > 0 ? half.x : -half.x + 0.12f, half.y, eaves}));
+    append(upper, box({side > 0 ? half.x - 0.12f : -half.x, -half.y, 1.0f},
+                      {side > 0 ? half.x : -half.x + 0.12f, half.y, eaves}));
   append(upper, box({-half.x, -half.y, 1.0f}, {half.x, -half.y + 0.12f, eaves}));
   append(upper, box({-half.x, half.y - 0.12f, eaves - 0.35f}, {half.x, half.y, eaves}));
   append(dark, box({-half.x + 0.12f, -half.y + 0.12f, 1.0f}, {half.x - 0.12f, 0.2f * half.y, eaves}));
@@ -204,15 +210,24 @@ scene::Model lamp(const ShapeRequest& request) {
   const float height = bounds(model).max.z;
   for (scene::Part& part : model.parts)
     for (vec3& position : part.mesh.positions)
-      position.z = position.z > 0.7f * height ? position.z + request.size_m.z - height
-                                              : position.z * (request.size_m.z - 0.3f * height) / (0.7f * height);
+      position.z = position.z > 0.7f * height
+                       ? position.z + request.size_m.z - height
+                       : position.z * (request.size_m.z - 0.3f * height) / (0.7f * height);
   return model;
 }
 
 scene::Model bollard(const ShapeRequest& request) {
   const vec3 by(request.size_m.x / 0.2f, request.size_m.y / 0.2f, request.size_m.z / 0.96f);
-  Mesh mesh = turned(smooth({{0.1f, 0.0f}, {0.085f, 0.1f}, {0.06f, 0.2f}, {0.055f, 0.7f}, {0.07f, 0.78f},
-                             {0.07f, 0.84f}, {0.045f, 0.92f}, {0.005f, 0.96f}}, 3), 16);
+  Mesh mesh = turned(smooth({{0.1f, 0.0f},
+                             {0.085f, 0.1f},
+                             {0.06f, 0.2f},
+                             {0.055f, 0.7f},
+                             {0.07f, 0.78f},
+                             {0.07f, 0.84f},
+                             {0.045f, 0.92f},
+                             {0.005f, 0.96f}},
+                            3),
+                     16);
   scene::Model model;
   scene::Material iron = main_material(request, "lacquer");
   iron.name = "cast iron";
@@ -222,11 +237,13 @@ scene::Model bollard(const ShapeRequest& request) {
 
 scene::Model bin(const ShapeRequest& request) {
   const vec3 by(request.size_m.x / 0.52f, request.size_m.y / 0.52f, request.size_m.z / 1.12f);
-  Mesh shell = turned({{0.21f, 0.08f}, {0.24f, 0.12f}, {0.25f, 0.78f}, {0.26f, 0.8f}, {0.25f, 0.83f}, {0.21f, 0.84f}}, 24);
+  Mesh shell = turned(
+      {{0.21f, 0.08f}, {0.24f, 0.12f}, {0.25f, 0.78f}, {0.26f, 0.8f}, {0.25f, 0.83f}, {0.21f, 0.84f}}, 24);
   Mesh iron = turned({{0.23f, 0.98f}, {0.25f, 1.0f}, {0.2f, 1.08f}, {0.02f, 1.12f}}, 24);
   append(iron, turned({{0.24f, 0.0f}, {0.24f, 0.08f}, {0.1f, 0.1f}}, 24));
   append(iron, turned({{0.21f, 0.84f}, {0.2f, 0.6f}, {0.02f, 0.58f}}, 24));
-  for (const float x : {-0.2f, 0.2f}) append(iron, tube({{{x, 0.0f, 0.8f}, 0.015f}, {{x, 0.0f, 1.0f}, 0.015f}}));
+  for (const float x : {-0.2f, 0.2f})
+    append(iron, tube({{{x, 0.0f, 0.8f}, 0.015f}, {{x, 0.0f, 1.0f}, 0.015f}}));
   scene::Model model;
   add(model, "shell", stretched(std::move(shell), by), main_material(request, "lacquer"));
   add(model, "iron", stretched(std::move(iron), by), cast_iron());
@@ -235,13 +252,16 @@ scene::Model bin(const ShapeRequest& request) {
 
 /// A hoop of steel tube.
 scene::Model bicycle_stand(const ShapeRequest& request) {
-  const float half = 0.5f * request.size_m.x - 0.025f, height = request.size_m.z - 0.025f, round = 0.5f * half;
+  const float half = 0.5f * request.size_m.x - 0.025f, height = request.size_m.z - 0.025f,
+              round = 0.5f * half;
   std::vector<city::TubeRing> rings{{{-half, 0.0f, 0.0f}, 0.024f}};
   constexpr int steps = 6;
   for (const float side : {-1.0f, 1.0f})
     for (int i = 0; i <= steps; ++i) {
       const float turn = glm::half_pi<float>() * float(side < 0 ? i : steps - i) / float(steps);
-      rings.push_back({{side * (half - round + round * std::cos(turn)), 0.0f, height - round + round * std::sin(turn)}, 0.024f});
+      rings.push_back(
+          {{side * (half - round + round * std::cos(turn)), 0.0f, height - round + round * std::sin(turn)},
+           0.024f});
     }
   rings.push_back({{half, 0.0f, 0.0f}, 0.024f});
   scene::Model model;
@@ -251,16 +271,25 @@ scene::Model bicycle_stand(const ShapeRequest& request) {
 
 const std::map<std::string, scene::Model (*)(const ShapeRequest&)>& makers() {
   static const std::map<std::string, scene::Model (*)(const ShapeRequest&)> all{
-      {"bench_wood", bench_wood}, {"bench_stone", bench_stone}, {"table", table},     {"umbrella", umbrella},
-      {"kiosk", kiosk},           {"stop", stop},               {"planter", planter}, {"grass_square", grass_square},
-      {"lamp", lamp},             {"bollard", bollard},         {"bin", bin},         {"bicycle_stand", bicycle_stand}};
+      {"bench_wood", bench_wood},
+      {"bench_stone", bench_stone},
+      {"table", table},
+      {"umbrella", umbrella},
+      {"kiosk", kiosk},
+      {"stop", stop},
+      {"planter", planter},
+      {"grass_square", grass_square},
+      {"lamp", lamp},
+      {"bollard", bollard},
+      {"bin", bin},
+      {"bicycle_stand", bicycle_stand}};
   return all;
 }
 
 float cross(glm::vec2 a, glm::vec2 b) { return a.x * b.y - a.y * b.x; }
 
-/// Ears are cut off one after another (Meisters 1975): corners at which the polygon turns left and whose triangle
-/// holds no other corner.
+/// Ears are cut off one after another (Meisters 1975): corners at which the polygon turns left and whose
+/// triangle holds no other corner.
 std::vector<std::uint32_t> triangles_of(const std::vector<glm::vec3>& outline) {
   std::vector<std::uint32_t> left(outline.size()), triangles;
   for (std::size_t i = 0; i < left.size(); ++i) left[i] = std::uint32_t(i);
@@ -274,7 +303,8 @@ std::vector<std::uint32_t> triangles_of(const std::vector<glm::vec3>& outline) {
     if (cross(b - a, c - b) <= 0.0f) return false;
     for (std::size_t k = 3; k < left.size(); ++k) {
       const glm::vec2 p = at(i + k);
-      if (cross(b - a, p - a) >= 0.0f && cross(c - b, p - b) >= 0.0f && cross(a - c, p - c) >= 0.0f) return false;
+      if (cross(b - a, p - a) >= 0.0f && cross(c - b, p - b) >= 0.0f && cross(a - c, p - c) >= 0.0f)
+        return false;
     }
     return true;
   };
@@ -340,13 +370,15 @@ scene::Model shape_model(const std::string& shape, const ShapeRequest& request) 
   return maker->second(request);
 }
 
-scene::Model surface_model(const std::vector<glm::vec3>& outline, const std::string& material, glm::vec3 colour) {
+scene::Model surface_model(const std::vector<glm::vec3>& outline, const std::string& material,
+                           glm::vec3 colour) {
   constexpr float lift_m = 0.02f;  // above what it lies on
   scene::Model model;
   Mesh mesh;
   mesh.indices = triangles_of(outline);
   if (mesh.indices.empty()) return model;
-  const auto sheet = std::ranges::find(sheets, material, [](const Sheet& each) { return std::string(each.name); });
+  const auto sheet =
+      std::ranges::find(sheets, material, [](const Sheet& each) { return std::string(each.name); });
   const float side_m = sheet == std::end(sheets) ? 1.0f : sheet->side_m;
   for (const vec3 corner : outline) {
     mesh.positions.push_back(corner + vec3(0.0f, 0.0f, lift_m));

@@ -1,5 +1,5 @@
-// Generated street furniture and ground surfaces. The foot is at the origin, x runs to the right along the front, y
-// ahead of it, z up.
+// Generated street furniture and ground surfaces. The foot is at the origin, x runs to the right along the
+// front, y ahead of it, z up.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -26,9 +26,10 @@ scene::Model shape_model(const std::string& shape, const ShapeRequest& request);
 
 /// Materials of ground surfaces: paving, asphalt, gravel, lawn, plain.
 const std::vector<std::string>& surface_names();
-/// A ground surface within an outline (counter-clockwise or clockwise, not crossing itself), 2 cm above it. Empty
-/// where the outline has no area. `colour` is that of "plain", and tints the others.
-scene::Model surface_model(const std::vector<glm::vec3>& outline, const std::string& material, glm::vec3 colour);
+/// A ground surface within an outline (counter-clockwise or clockwise, not crossing itself), 2 cm above it.
+/// Empty where the outline has no area. `colour` is that of "plain", and tints the others.
+scene::Model surface_model(const std::vector<glm::vec3>& outline, const std::string& material,
+                           glm::vec3 colour);
 
 /// The decimal number that a person has written to get this float: 12.345 for 12.345f.
 double exact_decimal(float value);

@@ -76,8 +76,8 @@ void MirroredBodies::add_objects(const scene::Scene& scene) {
   const glm::ivec3 size = BodyField::size();
   for (std::size_t i = 0; i < known; ++i) {
     const glm::ivec3 at = corner_of(i);
-    glCopyImageSubData(before.name(), GL_TEXTURE_3D, 0, at.x, at.y, at.z, fields_.name(), GL_TEXTURE_3D, 0, at.x,
-                       at.y, at.z, size.x, size.y, size.z);
+    glCopyImageSubData(before.name(), GL_TEXTURE_3D, 0, at.x, at.y, at.z, fields_.name(), GL_TEXTURE_3D, 0,
+                       at.x, at.y, at.z, size.x, size.y, size.z);
   }
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const glm::ivec3 at = corner_of(known + i);

@@ -47,9 +47,9 @@ class MirroredBodies {
   void find_neighbours(const std::vector<methods::VisibleReflector>& reflectors);
 
   std::map<std::pair<const scene::Model*, const void*>, int> field_of_look_;  ///< by model and paint
-  std::vector<int> field_of_object_;  ///< below 0: none
-  std::vector<Bounds> boxes_;         ///< of each field, in its model's frame
-  std::vector<int> body_of_object_;   ///< below 0: none now
+  std::vector<int> field_of_object_;                                          ///< below 0: none
+  std::vector<Bounds> boxes_;        ///< of each field, in its model's frame
+  std::vector<int> body_of_object_;  ///< below 0: none now
   std::vector<std::pair<float, int>> by_distance_;
   std::vector<int> objects_;                                         ///< of each body
   std::vector<const methods::VisibleReflector*> reflector_of_body_;  ///< null: it is not seen

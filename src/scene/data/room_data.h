@@ -52,7 +52,8 @@ struct RoomData {
   virtual std::unique_ptr<RoomData> take_made_by(const NodeRange& nodes) = 0;
   /// Puts back what `take_made_by` has removed from a value of the same type.
   virtual void put_back(RoomData& taken) = 0;
-  /// Nodes have other numbers now: the node of number n has `numbers[n]`. Items follow the order of their nodes.
+  /// Nodes have other numbers now: the node of number n has `numbers[n]`. Items follow the order of their
+  /// nodes.
   virtual void renumber(std::span<const int> numbers) = 0;
 };
 

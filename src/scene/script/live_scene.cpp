@@ -342,8 +342,8 @@ void LiveScene::follow_objects(Scene& scene, std::size_t objects_before) {
   for (const FollowStep& step : script_.registry->follow_steps()) step(*this, scene);
 }
 
-/// Each object takes the place of one that the same node made of the same model before, or that a removed node beside
-/// it left, or a new one; places that are left over are hidden.
+/// Each object takes the place of one that the same node made of the same model before, or that a removed
+/// node beside it left, or a new one; places that are left over are hidden.
 void LiveScene::put_objects(Scene& scene, std::vector<Object> built, const std::vector<const Node*>& makers,
                             const Node& node) {
   std::set<int> free;

@@ -1,5 +1,5 @@
-// A running scene: messages and scenarios change node attributes, and nodes are inserted, removed, renamed and moved;
-// only the affected nodes are rebuilt, from models already loaded.
+// A running scene: messages and scenarios change node attributes, and nodes are inserted, removed, renamed
+// and moved; only the affected nodes are rebuilt, from models already loaded.
 #pragma once
 
 #include <deque>
@@ -80,19 +80,20 @@ class LiveScene {
   /// initial scenario. Reports all errors. Call it before the scene is rendered: it adds objects.
   Status prepare_scenarios(Scene& scene);
 
-  // Each of the following takes effect at once in `scene`, or, where it fails, changes nothing. An object keeps its
-  // index as long as the scene runs: new ones come last, and what is removed stays hidden in its place until a node
-  // beside it makes an object of the same model. What stands in roads or maps when the scene is loaded is laid out
-  // once: such nodes neither come nor go.
+  // Each of the following takes effect at once in `scene`, or, where it fails, changes nothing. An object
+  // keeps its index as long as the scene runs: new ones come last, and what is removed stays hidden in its
+  // place until a node beside it makes an object of the same model. What stands in roads or maps when the
+  // scene is loaded is laid out once: such nodes neither come nor go.
 
   /// Inserts a node with all that stands in it, and builds it. Its names are new in the scene.
   Result<const Node*> insert(Scene& scene, Node node, const NodePosition& at);
-  /// The same for the nodes of a piece of script, which may refer to the scene's. `file` stands in errors; files that
-  /// the piece names are relative to it.
-  Result<std::vector<const Node*>> insert_script(Scene& scene, std::string_view script, const NodePosition& at,
-                                                 const Roots& roots, const std::string& file);
-  /// Takes a node out of the scene with all that stands in it. It keeps its address: `put_back` inserts it again.
-  /// Fails where another node refers to it.
+  /// The same for the nodes of a piece of script, which may refer to the scene's. `file` stands in errors;
+  /// files that the piece names are relative to it.
+  Result<std::vector<const Node*>> insert_script(Scene& scene, std::string_view script,
+                                                 const NodePosition& at, const Roots& roots,
+                                                 const std::string& file);
+  /// Takes a node out of the scene with all that stands in it. It keeps its address: `put_back` inserts it
+  /// again. Fails where another node refers to it.
   Status remove(Scene& scene, const Node& node);
   /// Inserts a removed node again.
   Status put_back(Scene& scene, const Node& removed, const NodePosition& at);

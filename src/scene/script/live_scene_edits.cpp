@@ -87,7 +87,8 @@ Status LiveScene::check_names(const Nodes& nodes) const {
           errors.push_back(error_at(inside.where, "the scene has a {} already; change its attributes instead",
                                     inside.schema->type));
         else if (other || !taken.insert(name).second)
-          errors.push_back(error_at(inside.where, "the name \"{}\" is taken; names are unique in a scene", name));
+          errors.push_back(
+              error_at(inside.where, "the name \"{}\" is taken; names are unique in a scene", name));
       }
     });
   if (!errors.empty()) return errors;
@@ -107,9 +108,10 @@ Status LiveScene::check_place(const Nodes& nodes, const Node* parent) const {
       if (inside.schema->is_laid_out_once) fixed = &inside;
     });
     if (fixed)
-      return error_at(fixed->where,
-                      "a {} is laid out once, when the scene is loaded: change the script and open the scene again",
-                      fixed->schema->type);
+      return error_at(
+          fixed->where,
+          "a {} is laid out once, when the scene is loaded: change the script and open the scene again",
+          fixed->schema->type);
   }
   return Done{};
 }
@@ -178,8 +180,7 @@ void LiveScene::follow_edit(Scene& scene) {
 /// Builds nodes that stand in their place. What their parent makes by itself is there already.
 Errors LiveScene::build_new(Scene& scene, const Node* parent, const std::set<const Node*>& made) {
   std::set<const Node*> inside;
-  for (const Node* node : made)
-    visit_tree(*node, [&](const Node& each) { inside.insert(&each); });
+  for (const Node* node : made) visit_tree(*node, [&](const Node& each) { inside.insert(&each); });
   const int parent_number = parent ? frame_of(*parent).number : -1;
   SceneBuilder builder(*script_.registry, std::move(script_.models));
   std::vector<Object> objects = std::exchange(scene.objects, {});
@@ -237,8 +238,10 @@ Status LiveScene::insert(Scene& scene, Nodes& nodes, const NodePosition& at) {
   };
   const Node* rebuilt = is_part(nodes.front()) && at.parent ? builder_of(*at.parent) : nullptr;
   if (is_part(nodes.front()) && !rebuilt)
-    return error_at(nodes.front().where, "a {} is part of the node around it, which stays as it is while the scene "
-                    "runs: change the script and open the scene again", nodes.front().schema->type);
+    return error_at(nodes.front().where,
+                    "a {} is part of the node around it, which stays as it is while the scene "
+                    "runs: change the script and open the scene again",
+                    nodes.front().schema->type);
   Nodes& beside = nodes_beside(at.parent);
   const auto place = std::ranges::find_if(beside, [&](const Node& each) { return &each == at.before; });
   std::set<const Node*> made;
@@ -250,7 +253,8 @@ Status LiveScene::insert(Scene& scene, Nodes& nodes, const NodePosition& at) {
   const auto first = nodes.begin();
   beside.splice(place, nodes);
   renumber(scene);
-  if (Errors errors = rebuilt ? build_again(scene, *rebuilt) : build_new(scene, at.parent, made); !errors.empty()) {
+  if (Errors errors = rebuilt ? build_again(scene, *rebuilt) : build_new(scene, at.parent, made);
+      !errors.empty()) {
     for (const Node* node : made) forget(*node);
     nodes.splice(nodes.begin(), beside, first, place);
     renumber(scene);
@@ -271,8 +275,8 @@ Result<const Node*> LiveScene::insert(Scene& scene, Node node, const NodePositio
 Result<std::vector<const Node*>> LiveScene::insert_script(Scene& scene, std::string_view script,
                                                           const NodePosition& at, const Roots& roots,
                                                           const std::string& file) {
-  Result<Nodes> nodes = check_piece(script, file, at.parent ? at.parent->schema->type : top_level, script_.nodes,
-                                    *script_.registry, roots);
+  Result<Nodes> nodes = check_piece(script, file, at.parent ? at.parent->schema->type : top_level,
+                                    script_.nodes, *script_.registry, roots);
   if (!nodes) return nodes.errors();
   std::vector<const Node*> inserted;
   for (const Node& node : *nodes) inserted.push_back(&node);
@@ -315,15 +319,16 @@ Status LiveScene::remove(Scene& scene, const Node& node) {
   const bool is_part = script_.registry->find(node.schema->type)->is_of_parent();
   const Node* rebuilt = is_part && parent ? builder_of(*parent) : nullptr;
   if (is_part && !rebuilt)
-    return error_at(node.where, "a {} is part of the node around it, which stays as it is while the scene runs",
+    return error_at(node.where,
+                    "a {} is part of the node around it, which stays as it is while the scene runs",
                     node.schema->type);
   take_out(scene, node, removed_);
   renumber(scene);
   if (rebuilt)
     if (Errors errors = build_again(scene, *rebuilt); !errors.empty()) {
       Nodes& beside = nodes_beside(parent);
-      beside.splice(std::ranges::find_if(beside, [&](const Node& each) { return &each == at.before; }), removed_,
-                    std::prev(removed_.end()));
+      beside.splice(std::ranges::find_if(beside, [&](const Node& each) { return &each == at.before; }),
+                    removed_, std::prev(removed_.end()));
       know(writable(node), parent);
       build_again(scene, *rebuilt);
       return errors;

@@ -1,4 +1,5 @@
-// Nodes that come, go, or change place and name: what a running scene then is, is what a fresh load of its script gives.
+// Nodes that come, go, or change place and name: what a running scene then is, is what a fresh load of its
+// script gives.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +14,8 @@ namespace {
 class LiveSceneEditsTest : public FountainTest {
  protected:
   const Node* insert(const std::string& script, NodePosition at = {}) {
-    const auto inserted =
-        live_.insert_script(scene_, script, at, Roots(folder_.path()), (folder_.path() / "piece.xp").string());
+    const auto inserted = live_.insert_script(scene_, script, at, Roots(folder_.path()),
+                                              (folder_.path() / "piece.xp").string());
     EXPECT_TRUE(inserted) << (inserted ? "" : to_string(inserted.errors()));
     return inserted ? inserted->front() : nullptr;
   }
@@ -36,7 +37,8 @@ class LiveSceneEditsTest : public FountainTest {
   }
   static std::vector<std::string> items(const Scene& scene) {
     std::vector<std::string> all;
-    for (const Jet& jet : scene.items<Jet>()) all.push_back(fmt::format("{:.3f} {}", jet.foot.x, jet.height_m));
+    for (const Jet& jet : scene.items<Jet>())
+      all.push_back(fmt::format("{:.3f} {}", jet.foot.x, jet.height_m));
     return all;
   }
   void expect_as_loaded_afresh(const std::string& what) {
@@ -56,7 +58,8 @@ constexpr const char* place =
 TEST_F(LiveSceneEditsTest, ANodeComesWithAllThatStandsInIt) {
   load(place);
   const Node* group = live_.find("g");
-  insert("group(position=\"2 0 0\") { fountain(name=c) { jet(height=3) jet(height=4) } }", {group, live_.find("b")});
+  insert("group(position=\"2 0 0\") { fountain(name=c) { jet(height=3) jet(height=4) } }",
+         {group, live_.find("b")});
   EXPECT_EQ(items(scene_), (std::vector<std::string>{"1.000 1", "12.000 3", "12.000 4", "10.000 2"}))
       << "before what stands behind it in the script";
   EXPECT_EQ(live_.parent_of(*live_.parent_of(*live_.find("c"))), group);
@@ -98,7 +101,8 @@ TEST_F(LiveSceneEditsTest, PartsComeAndGoWithTheirParentRebuilt) {
   EXPECT_EQ(items(scene_), (std::vector<std::string>{"1.000 1", "1.000 5", "10.000 2"}));
   ASSERT_TRUE(live_.remove(scene_, *jet));
   EXPECT_EQ(items(scene_), (std::vector<std::string>{"1.000 1", "10.000 2"}));
-  const auto dry = live_.insert_script(scene_, "jet(height=0)", {live_.find("a"), nullptr}, Roots(""), "piece.xp");
+  const auto dry =
+      live_.insert_script(scene_, "jet(height=0)", {live_.find("a"), nullptr}, Roots(""), "piece.xp");
   ASSERT_FALSE(dry);
   EXPECT_EQ(to_string(dry.errors()), "piece.xp:1:1: a jet without water\n");
   EXPECT_EQ(items(scene_), (std::vector<std::string>{"1.000 1", "10.000 2"})) << "nothing has changed";
@@ -138,8 +142,10 @@ TEST_F(LiveSceneEditsTest, WhatCannotStandThereChangesNothing) {
   EXPECT_NE(refused("fountain(nmae=d)", nullptr).find("did you mean \"name\"?"), std::string::npos);
   EXPECT_NE(refused("fountain(name=d", nullptr).find("piece.xp:1"), std::string::npos);
   EXPECT_NE(refused("jet()", nullptr).find("jet does not stand by itself"), std::string::npos);
-  EXPECT_NE(refused("fountain() { jet(height=0) }", live_.find("g")).find("a jet without water"), std::string::npos);
-  EXPECT_NE(refused("fountain(name=d, position=\"2000 0 0\")", nullptr).find("no pavement there"), std::string::npos);
+  EXPECT_NE(refused("fountain() { jet(height=0) }", live_.find("g")).find("a jet without water"),
+            std::string::npos);
+  EXPECT_NE(refused("fountain(name=d, position=\"2000 0 0\")", nullptr).find("no pavement there"),
+            std::string::npos);
   expect_as_loaded_afresh("refused");
 }
 
@@ -178,10 +184,13 @@ TEST_F(LiveSceneEditsTest, RandomEditsGiveWhatAFreshLoadGives) {
     const Node* node = all.empty() ? nullptr : all[std::size_t(pick(int(all.size())))];
     switch (pick(6)) {
       case 0:
-        insert(fmt::format("fountain(name=n{}, position=\"{} 0 0\") {{ jet(height=0.5) }}", named++, step), {parent, before});
+        insert(fmt::format("fountain(name=n{}, position=\"{} 0 0\") {{ jet(height=0.5) }}", named++, step),
+               {parent, before});
         break;
       case 1:
-        insert(fmt::format("group(name=n{}, position=\"0 {} 0\") {{ fountain() {{ jet(height=0.25) jet(height=0.75) }} }}", named++, step),
+        insert(fmt::format("group(name=n{}, position=\"0 {} 0\") {{ fountain() {{ jet(height=0.25) "
+                           "jet(height=0.75) }} }}",
+                           named++, step),
                {parent, before});
         break;
       case 2:

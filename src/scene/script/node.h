@@ -23,7 +23,8 @@ struct NodeAttribute {
 };
 
 struct Node;
-/// Nodes side by side, in the order of the script. Each stays at its address while others come, go or change their order.
+/// Nodes side by side, in the order of the script. Each stays at its address while others come, go or change
+/// their order.
 using Nodes = std::list<Node>;
 
 /// A checked node. The getters take an attribute name of the node's schema and assert its type; if the script

@@ -27,8 +27,8 @@ using ChangeModel = std::function<void(const Node& node, Model& model, SceneBuil
 /// builder.fail().
 using FinishStep = std::function<void(SceneBuilder& builder)>;
 
-/// A step after nodes of a running scene have come, gone or changed place, for what was found out about all of them
-/// when the scene was loaded.
+/// A step after nodes of a running scene have come, gone or changed place, for what was found out about all
+/// of them when the scene was loaded.
 using FollowStep = std::function<void(const LiveScene& live, Scene& scene)>;
 
 /// A node type: it builds something, or changes the `model` that encloses it, or is a part that its parent

@@ -63,8 +63,7 @@ void SceneBuilder::build_one(const Node& node) {
   node_ = outer, node_number_ = outer_number;
 }
 
-void SceneBuilder::build(const Nodes& nodes, const glm::mat4& parent_from_nodes,
-                         bool is_visible) {
+void SceneBuilder::build(const Nodes& nodes, const glm::mat4& parent_from_nodes, bool is_visible) {
   const NodeFrame outer = frame_;
   frame_.world_from_nodes = outer.world_from_nodes * parent_from_nodes;
   frame_.is_visible = outer.is_visible && is_visible;

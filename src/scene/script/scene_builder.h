@@ -89,9 +89,9 @@ class SceneBuilder {
   /// skipped. `frames` holds the frame of each node, for those inside it. The scene must hold no other
   /// objects and cameras.
   void build_again(const Node& node, const std::unordered_map<const Node*, NodeFrame>& frames);
-  /// Builds, of the nodes of a running scene, those that stand in `parent` (null: at the top level, among `top`) and
-  /// are among `wanted`, and runs the rebuild steps. `frames` holds their numbers and the frame of the parent, which
-  /// makes its own things once more.
+  /// Builds, of the nodes of a running scene, those that stand in `parent` (null: at the top level, among
+  /// `top`) and are among `wanted`, and runs the rebuild steps. `frames` holds their numbers and the frame of
+  /// the parent, which makes its own things once more.
   void build_inside(const Node* parent, const Nodes& top, const std::set<const Node*>& wanted,
                     const std::unordered_map<const Node*, NodeFrame>& frames);
 

@@ -7,7 +7,7 @@ namespace parvis::scene {
 namespace {
 
 Result<Nodes> checked_nodes(const std::filesystem::path& script, const NodeRegistry& registry,
-                                        std::span<const std::filesystem::path> data_folders) {
+                            std::span<const std::filesystem::path> data_folders) {
   const Roots roots(script.parent_path(), {data_folders.begin(), data_folders.end()});
   return check_script(script, registry, roots);
 }

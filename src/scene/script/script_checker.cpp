@@ -33,7 +33,8 @@ class Checker {
     if (!written) return written.errors();
     Nodes made = nodes(*written, file, parent);
     if (!is_incomplete_)
-      resolve_names(made, names_, roots_, [this](Error error) { fail(std::move(error)); }, others);
+      resolve_names(
+          made, names_, roots_, [this](Error error) { fail(std::move(error)); }, others);
     if (!errors_.empty()) return std::move(errors_);
     return made;
   }
@@ -41,8 +42,7 @@ class Checker {
  private:
   void know(const Nodes& others);
   Nodes file(const fs::path& script, const std::string& parent, const FileLocation& asked_at);
-  Nodes nodes(const std::vector<ScriptNode>& written, const std::string& file,
-                          const std::string& parent);
+  Nodes nodes(const std::vector<ScriptNode>& written, const std::string& file, const std::string& parent);
   Node node(const ScriptNode& written, const NodeType& type, const std::string& file);
   void attribute(Node& node, const ScriptAttribute& written, const std::string& file);
   void check_place(const ScriptNode& written, const NodeSchema& schema, const std::string& file,
@@ -69,8 +69,7 @@ class Checker {
   bool is_incomplete_ = false;  ///< a file could not be read: names may be missing
 };
 
-Nodes Checker::file(const fs::path& script, const std::string& parent,
-                                const FileLocation& asked_at) {
+Nodes Checker::file(const fs::path& script, const std::string& parent, const FileLocation& asked_at) {
   std::error_code code;
   const std::uintmax_t size = fs::is_regular_file(script, code) ? fs::file_size(script, code) : 0;
   if (size > max_script_bytes) {
@@ -99,7 +98,7 @@ Nodes Checker::file(const fs::path& script, const std::string& parent,
 }
 
 Nodes Checker::nodes(const std::vector<ScriptNode>& written, const std::string& file,
-                                 const std::string& parent) {
+                     const std::string& parent) {
   Nodes result;
   for (const ScriptNode& child : written) {
     if (errors_.size() >= max_script_errors) break;
@@ -216,8 +215,7 @@ void Checker::note_name(const std::string& name, const FileLocation& where) {
 }
 
 /// Where something is said of a node by one of its names; null: nowhere.
-const FileLocation* place_of_reference(const Nodes& nodes,
-                                       const std::array<std::string, 2>& names) {
+const FileLocation* place_of_reference(const Nodes& nodes, const std::array<std::string, 2>& names) {
   const auto is_among = [&](const std::string& name) {
     return std::ranges::find(names, name) != names.end();
   };
@@ -269,8 +267,7 @@ Nodes Checker::included(const Node& include, const std::string& parent) {
 
 }  // namespace
 
-Result<Nodes> check_script(const fs::path& script, const NodeRegistry& registry,
-                                       const Roots& roots) {
+Result<Nodes> check_script(const fs::path& script, const NodeRegistry& registry, const Roots& roots) {
   std::error_code code;
   const fs::path canonical = fs::weakly_canonical(script, code);
   return Checker(registry, roots).scene(code ? script : canonical);

@@ -24,10 +24,10 @@ inline constexpr std::size_t max_included_bytes = 512u << 20;  ///< of all files
 /// attributes, values, files that are missing or lie outside `roots`, repeated names, references to nothing,
 /// cyclic includes. Files are relative to the script that names them, see find_named_file.
 Result<Nodes> check_script(const std::filesystem::path& script, const NodeRegistry& registry,
-                                       const Roots& roots);
+                           const Roots& roots);
 
-/// The same for a piece of script that is to stand in a node of the type `parent` (`top_level`: in none) of a scene
-/// whose nodes are `others`: its names are new, and it may refer to theirs. `file` stands in errors.
+/// The same for a piece of script that is to stand in a node of the type `parent` (`top_level`: in none) of a
+/// scene whose nodes are `others`: its names are new, and it may refer to theirs. `file` stands in errors.
 Result<Nodes> check_piece(std::string_view text, const std::string& file, const std::string& parent,
                           const Nodes& others, const NodeRegistry& registry, const Roots& roots);
 

@@ -1,5 +1,5 @@
-// What a room brings to scripts, for tests: fountains, which have jets as their parts, and steps that finish the scene.
-// Nothing else knows them.
+// What a room brings to scripts, for tests: fountains, which have jets as their parts, and steps that finish
+// the scene. Nothing else knows them.
 #pragma once
 
 #include "scene/data/test_scene.h"
@@ -20,6 +20,7 @@ struct Jet {
   glm::vec3 foot;
   float height_m;
 
+  /// All of it.
   void hash(ContentHash& hash) const {
     hash.add(foot);
     hash.add(height_m);
@@ -32,6 +33,7 @@ struct WaterNeed {
   static constexpr DataRole role = DataRole::settings;
   float metres_of_jets = 0.0f;
 
+  /// All of it.
   void hash(ContentHash& hash) const { hash.add(metres_of_jets); }
 };
 
@@ -42,6 +44,7 @@ struct Slab {
   float x;
   int number;
 
+  /// All of it.
   void hash(ContentHash& hash) const { hash.add(x), hash.add(number); }
 };
 
@@ -54,6 +57,7 @@ inline void pave(SceneBuilder& builder) {
   }
 }
 
+/// A part of a fountain.
 inline NodeSchema jet_schema() {
   return {.type = "jet",
           .help = "One jet.",
@@ -62,6 +66,7 @@ inline NodeSchema jet_schema() {
           .example = "fountain() { jet(height=3) }"};
 }
 
+/// The node of a fountain.
 inline NodeSchema fountain_schema() {
   NodeSchema schema{.type = "fountain",
                     .help = "Water.",
@@ -73,6 +78,7 @@ inline NodeSchema fountain_schema() {
   return schema;
 }
 
+/// A basin, and an item for each jet.
 inline void build_fountain(const Node& node, SceneBuilder& builder) {
   const glm::mat4 world_from_fountain = builder.world_from_parent() * placement(node);
   Object basin;
@@ -87,6 +93,7 @@ inline void build_fountain(const Node& node, SceneBuilder& builder) {
   }
 }
 
+/// Adds the nodes and steps of this file.
 inline void furnish_fountains(House& house) {
   NodeRegistry& registry = house.get<NodeRegistry>();
   registry.add(fountain_schema(), build_fountain);
