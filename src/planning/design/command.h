@@ -25,14 +25,14 @@ struct Insert {
   std::string kind;
   glm::dvec3 position{0.0, 0.0, rests};
   double heading_deg = 0.0;
-  std::optional<double> width, depth, height;
+  std::optional<double> width = {}, depth = {}, height = {};
   std::string colour = {}, material = {}, name = {};  ///< empty: as usual for the kind; the next free name
 };
 /// move NAMES by DX,DY[,DZ], or to X,Y[,Z]: the first object stands there, the others keep their distance to
 /// it.
 struct Move {
   Names names;
-  glm::dvec3 by{0.0};
+  glm::dvec3 by = glm::dvec3(0.0);
   bool is_absolute = false;  ///< `by` is where the first goes
 };
 /// turn NAMES by DEG [about X,Y], or to DEG

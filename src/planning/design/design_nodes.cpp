@@ -77,8 +77,8 @@ glm::dvec3 size_of(const Node& node, const Kind& kind) {
   if (node.gives("width")) size.x = node.number("width");
   if (node.gives("depth"))
     size.y = node.number("depth");
-  else if (kind.is_round || !kind.may_change(Changeable::depth))
-    size.y = kind.is_round ? size.x * kind.size_m.y / kind.size_m.x : size.y;
+  else if (kind.is_round && node.gives("width"))
+    size.y = size.x * kind.size_m.y / kind.size_m.x;
   if (node.gives("height")) size.z = node.number("height");
   return size;
 }

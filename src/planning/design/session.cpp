@@ -238,7 +238,7 @@ Status Session::apply(const Changes& changes, bool forward) {
 }
 
 Status Session::take_step(std::vector<Step>& from, std::vector<Step>& to, bool forward) {
-  if (from.empty()) return error(forward ? "there is nothing to do again" : "there is nothing to undo");
+  if (from.empty()) return error("there is nothing to {}", forward ? "do again" : "undo");
   if (Status status = apply(from.back().changes, forward); !status) return status;
   to.push_back(std::move(from.back()));
   from.pop_back();

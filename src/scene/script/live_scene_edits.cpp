@@ -366,6 +366,11 @@ Status LiveScene::rename(Scene& scene, const Node& node, const std::string& name
             refers |= rename_in(given, before, name);
           }
     });
+  for (auto& [changed, attributes] : as_written_)  // what comes back with another scenario
+    for (NodeAttribute& given : attributes) {
+      if (changed == &node && given.schema == attribute) given.value = name, given.text.clear();
+      if (!before.empty()) rename_in(given, before, name);
+    }
   std::erase_if(by_name_, [&](const auto& named) { return named.second == &node && named.first == before; });
   by_name_.emplace(name, &writable(node));
   set(node, "name", name);
