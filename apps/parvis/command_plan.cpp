@@ -1,5 +1,5 @@
-// parvis plan: a project is placed in a scene, without a window; and a scene as a plan, for offices: PDF at a true scale,
-// DXF, CSV.
+// parvis plan: a project is placed in a scene, without a window; and a scene as a plan, for offices: PDF at a
+// true scale, DXF, CSV.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -29,15 +29,15 @@ struct Arguments {
 
 void list_kinds(const scene::Scene& scene) {
   for (const design::Kind& kind : design::kinds_of(scene))
-    fmt::print("{:<14} {:<18} {:<20} {:g} x {:g} x {:g} m\n", kind.name, kind.label, kind.label_fr, kind.size_m.x,
-               kind.size_m.y, kind.size_m.z);
+    fmt::print("{:<14} {:<18} {:<20} {:g} x {:g} x {:g} m\n", kind.name, kind.label, kind.label_fr,
+               kind.size_m.x, kind.size_m.y, kind.size_m.z);
 }
 
 void list_objects(const design::Session& session) {
   for (const design::PlacedObject& object : session.objects())
-    fmt::print("{:<18} {:<14} {:.3f},{:.3f},{:.3f} heading {:g}, {:g} x {:g} x {:g} m{}\n", object.name, object.kind,
-               object.position.x, object.position.y, object.position.z, object.heading_deg, object.size_m.x,
-               object.size_m.y, object.size_m.z, object.is_locked ? ", locked" : "");
+    fmt::print("{:<18} {:<14} {:.3f},{:.3f},{:.3f} heading {:g}, {:g} x {:g} x {:g} m{}\n", object.name,
+               object.kind, object.position.x, object.position.y, object.position.z, object.heading_deg,
+               object.size_m.x, object.size_m.y, object.size_m.z, object.is_locked ? ", locked" : "");
 }
 
 /// The lines of a file; # begins a comment.
@@ -117,12 +117,14 @@ Status plan(const Arguments& arguments) {
   if (!arguments.import_json.empty()) {
     const Result<std::string> text = read_file(arguments.import_json, 256u << 20);
     if (!text) return text.errors();
-    if (Status status = design::read_json(*text, arguments.import_json.string(), *session); !status) return status;
+    if (Status status = design::read_json(*text, arguments.import_json.string(), *session); !status)
+      return status;
   }
   if (Status status = run_commands(arguments, *session); !status) return status;
   if (arguments.lists_objects) list_objects(*session);
   if (!arguments.json.empty())
-    if (Status status = write_file(arguments.json, design::json_of(play->scene, *session)); !status) return status;
+    if (Status status = write_file(arguments.json, design::json_of(play->scene, *session)); !status)
+      return status;
   if (!arguments.output.empty()) {
     if (Status status = design::save(*session, play->scene.file, arguments.output); !status) return status;
     fmt::print("{}: design \"{}\" with {} objects\n", arguments.output.string(), session->name(),
@@ -135,19 +137,26 @@ Status plan(const Arguments& arguments) {
 }  // namespace
 
 void add_plan(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("plan", "Places a project in a scene; and the scene as a plan: PDF at a true scale, DXF, CSV");
+  CLI::App* command = app.add_subcommand(
+      "plan", "Places a project in a scene; and the scene as a plan: PDF at a true scale, DXF, CSV");
   const auto arguments = std::make_shared<Arguments>();
   arguments->scene.add_scene(*command);
   arguments->scene.add_state(*command);
-  command->add_option("--design", arguments->design, "Name of the design (default: the scene's first, or a new one)");
-  command->add_option("--do", arguments->commands, "A command, as \"insert bench_wood 12.40,3.05 heading 90\"; may repeat")
+  command->add_option("--design", arguments->design,
+                      "Name of the design (default: the scene's first, or a new one)");
+  command
+      ->add_option("--do", arguments->commands,
+                   "A command, as \"insert bench_wood 12.40,3.05 heading 90\"; may repeat")
       ->allow_extra_args(false);
-  command->add_option("--file", arguments->command_file, "A file with a command on each line; # begins a comment");
-  command->add_option("--import", arguments->import_json, "A design in JSON (docs/design.schema.json), before the commands");
+  command->add_option("--file", arguments->command_file,
+                      "A file with a command on each line; # begins a comment");
+  command->add_option("--import", arguments->import_json,
+                      "A design in JSON (docs/design.schema.json), before the commands");
   command->add_flag("--list", arguments->lists_objects, "Print the objects of the design");
   command->add_flag("--kinds", arguments->lists_kinds, "Print the kinds of objects that can be placed");
-  command->add_flag("--journal", arguments->keeps_journal,
-                    "Keep a journal beside the scene: undo reaches back over earlier calls, as in the window");
+  command->add_flag(
+      "--journal", arguments->keeps_journal,
+      "Keep a journal beside the scene: undo reaches back over earlier calls, as in the window");
   command->add_option("--json", arguments->json, "Write the design as JSON");
   command->add_option("-o,--output", arguments->output, "Write the design (.xp), into the scene's folder");
   command->add_option("--pdf", arguments->pdf, "A sheet with title block, legend, scale bar and north");
@@ -162,12 +171,13 @@ void add_plan(CLI::App& app, Chosen& chosen) {
   command->add_option("--subtitle", arguments->sheet.subtitle, "Its second line: project, state, author");
   std::string forms;
   for (const std::string& form : design::command_forms()) forms += "\n  " + form;
-  command->footer("Commands:" + forms +
-                  "\n  undo | redo | select NAMES|all|none|kind KIND|like NAME|group NAME|box X,Y X,Y\n"
-                  "NAMES are parted by commas; * and ? stand for any; \"selected\" is what was selected last.\n"
-                  "Example: parvis plan scenes/planned_square.xp --do \"row umbrella from 0,-6 to 12,-6 count 4\" "
-                  "-o scenes/planned_square.xp\n"
-                  "         parvis plan out/paper/paper.xp --pdf plan.pdf --scale 500 --dxf plan.dxf --csv plan.csv");
+  command->footer(
+      "Commands:" + forms +
+      "\n  undo | redo | select NAMES|all|none|kind KIND|like NAME|group NAME|box X,Y X,Y\n"
+      "NAMES are parted by commas; * and ? stand for any; \"selected\" is what was selected last.\n"
+      "Example: parvis plan scenes/planned_square.xp --do \"row umbrella from 0,-6 to 12,-6 count 4\" "
+      "-o scenes/planned_square.xp\n"
+      "         parvis plan out/paper/paper.xp --pdf plan.pdf --scale 500 --dxf plan.dxf --csv plan.csv");
   command->callback([arguments, &chosen] { chosen = [arguments] { return plan(*arguments); }; });
 }
 

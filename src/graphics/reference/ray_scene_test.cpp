@@ -377,7 +377,8 @@ TEST(RayScene, FineRaysKnowTheSidesOfAnEdge) {
 TEST(RayScene, ObjectsComeWhileItIsUpdated) {
   scene::Scene scene = three_things();
   RayScene rays(scene);
-  const auto post = scene::model_of(scene::box({-0.2f, -0.2f, 0}, {0.2f, 0.2f, 3}), scene::matt(glm::vec3(0.5f)));
+  const auto post =
+      scene::model_of(scene::box({-0.2f, -0.2f, 0}, {0.2f, 0.2f, 3}), scene::matt(glm::vec3(0.5f)));
   scene::add(scene, post, false, glm::translate(glm::mat4(1.0f), glm::vec3(2, 1, 0)));
   scene::add(scene, scene.objects[1].model, true, glm::translate(glm::mat4(1.0f), glm::vec3(-3, 0, 0)));
   EXPECT_TRUE(rays.update(scene));

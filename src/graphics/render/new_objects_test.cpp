@@ -122,7 +122,8 @@ TEST_F(NewObjectsTest, DeformBesideOthersThatDeform) {
   drawn(*renderer, scene);
   place_one(0, 0.5f);
   expect_as_fresh(*renderer, scene, "a second one");
-  for (glm::vec3& position : scene.objects[std::size_t(first)].deformed_meshes[0].positions) position.z *= 0.4f;
+  for (glm::vec3& position : scene.objects[std::size_t(first)].deformed_meshes[0].positions)
+    position.z *= 0.4f;
   for (glm::vec3& position : scene.objects.back().deformed_meshes[0].positions) position.z *= 2.0f;
   expect_as_fresh(*renderer, scene, "both deform");
 }

@@ -45,8 +45,8 @@ class Journal {
   Journal& operator=(Journal&& other) noexcept;
   ~Journal();
 
-  bool is_open() const { return file_ >= 0; }                            ///< else nothing is written
-  const std::filesystem::path& path() const { return path_; }            ///< of its file
+  bool is_open() const { return file_ >= 0; }                  ///< else nothing is written
+  const std::filesystem::path& path() const { return path_; }  ///< of its file
   /// Appends a line and makes sure that it is on the disk. On an error (a full disk) the journal is as
   /// before.
   Status append(const JournalEntry& entry);
