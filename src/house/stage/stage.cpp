@@ -116,8 +116,8 @@ Status Stage::set_reflection(const methods::Settings& reflection) {
   return Done{};
 }
 
-/// Methods know mirrors by their models: one that has come with a model of its own asks for the method to be
-/// made again.
+/// Methods know mirrors by their models: for one that has come with a model of its own another method is
+/// made.
 bool Stage::has_new_mirrors() {
   bool is_any = false;
   for (; known_objects_ < play_.scene.objects.size(); ++known_objects_) {

@@ -36,15 +36,14 @@ class Session {
   Status run(std::string_view text);
   /// The same of a command.
   Status run(Command command);
-  /// Takes the last step back, or does it again. Errors: there is none.
+  /// Takes the last step back. Errors: there is none.
   Status undo();
   /// Does the step again that was undone last.
   Status redo();
 
   const std::vector<Step>& done() const { return done_; }  ///< steps that can be undone, the last one last
-  const std::vector<Step>& undone() const {
-    return undone_;
-  }  ///< steps that can be done again, the next one last
+  /// Steps that can be done again, the next one last.
+  const std::vector<Step>& undone() const { return undone_; }
 
   /// Names of what is selected.
   const Names& selected() const { return selected_; }
