@@ -57,7 +57,7 @@ class SurfacePrograms {
 
   SurfaceSource source_;
   std::map<std::pair<std::string, std::string>, gl::Program> of_rooms_;  ///< by the room's two files
-  using Variants = std::array<gl::Program, surface_feature_combinations>;
+  using Variants = std::unordered_map<std::uint16_t, gl::Program>;
   std::vector<std::pair<std::string, int>> uniforms_;  ///< that were set
   mutable Variants programs_;
   mutable Variants one_sample_;  ///< of materials with holes, whose other programs need coverage by alpha
