@@ -67,7 +67,8 @@ MeshRange GpuGeometry::add_triangles(const MeshRange& mesh, const std::vector<st
 
 void GpuGeometry::upload() {
   if (!details_.empty()) {
-    if (!detail_buffer_) details_.insert(details_.begin(), uploaded_vertices_, Detail());  // of those before them
+    if (!detail_buffer_)
+      details_.insert(details_.begin(), uploaded_vertices_, Detail());  // of those before them
     append_to(detail_buffer_, detail_room_, uploaded_details_, details_);
     details_ = {};
   }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "base/colour.h"
 #include "places/paper_city/ground_texture.h"
@@ -388,9 +389,12 @@ scene::Model surface_model(const std::vector<glm::vec3>& outline, const std::str
   scene::Material surface = plain(material.c_str(), colour, 0.9f);
   if (sheet != std::end(sheets)) {
     const city::SurfacePictures& pictures = pictures_of(*sheet);
-    model.textures = {{material, pictures.colour, true, true},
-                      {material + " normals", pictures.normal, false, true},
-                      {material + " surface", pictures.surface, false, true}};
+    for (const auto& [name, image, is_srgb] : {std::tuple(material, &pictures.colour, true),
+                                               std::tuple(material + " normals", &pictures.normal, false),
+                                               std::tuple(material + " surface", &pictures.surface, false)}) {
+      scene::Texture& texture = model.textures.emplace_back();
+      texture.name = name, texture.image = *image, texture.is_srgb = is_srgb;
+    }
     surface.base_colour_texture = 0, surface.normal_texture = 1, surface.surface_texture = 2;
     surface.roughness = 1.0f, surface.metallic = 1.0f;
   }
