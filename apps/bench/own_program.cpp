@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "bench/report.h"
+#include "bench/bench.h"
 
 namespace parvis::bench {
 namespace {
@@ -22,7 +22,7 @@ bool has_program(const std::string& name) {
   return std::system(fmt::format("command -v {} > /dev/null", quoted(name)).c_str()) == 0;
 }
 
-Result<OwnRun> run_own_program(const std::string& before, const std::vector<std::string>& arguments) {
+OwnRun run_own_program(const std::string& before, const std::vector<std::string>& arguments) {
   std::string command = fmt::format("{} {}", before, quoted(PARVIS_PROGRAM));
   for (const std::string& argument : arguments) command.append(fmt::format(" {}", quoted(argument)));
   command.append(" 2> /dev/null");
@@ -36,17 +36,17 @@ Result<OwnRun> run_own_program(const std::string& before, const std::vector<std:
                     run.output.append(bytes.data(), count);
                   status = pclose(pipe);
                 });
-  if (status != 0) return error("{}: it ended with status {}", command, status);
+  if (status != 0) fail("{}: it ended with status {}", command, status);
   return run;
 }
 
-Result<double> number_after(const std::string& output, const std::string& text) {
+double number_after(const std::string& output, const std::string& text) {
   const std::size_t at = output.find(text);
-  if (at == std::string::npos) return error("the program does not say \"{}\": {}", text, output);
+  if (at == std::string::npos) fail("the program does not say \"{}\": {}", text, output);
   const char* begin = output.c_str() + at + text.size();
   char* end = nullptr;
   const double number = std::strtod(begin, &end);
-  if (end == begin) return error("no number follows \"{}\": {}", text, output);
+  if (end == begin) fail("no number follows \"{}\": {}", text, output);
   return number;
 }
 

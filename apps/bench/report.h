@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "bench/keys.h"
 
 namespace parvis::bench {
 
@@ -20,49 +21,57 @@ struct Median {
 };
 /// The median of the samples and its 95 % interval; all zero for none.
 Median median(std::vector<double> samples);
+/// The median of the ratios of samples taken in turn: what slows both for a while leaves it as it is. Samples
+/// count as a microsecond (1e-3) at least.
+Median ratio_in_turn(const std::vector<double>& over, const std::vector<double>& under);
+/// The ratio of two medians; its interval is the widest that both of theirs allow.
+Median ratio(const Median& over, const Median& under);
 
-/// The value below which a share of all lie; 0 of none.
-double percentile(std::vector<double> values, double share);
+/// The value below which a fraction of all lie; 0 of none.
+double percentile(std::vector<double> values, double fraction);
 
-/// What an issue asks of a figure.
-struct Target {
-  double limit = 0.0;
-  bool is_floor = false;  ///< the figure is to be at least so much, else at most
-
-  /// Whether a figure reaches it; what is no number does not.
-  bool is_met_by(double value) const { return is_floor ? value >= limit : value <= limit; }
-};
-/// At most so much.
-inline Target up_to(double limit) { return {limit, false}; }
-
-/// Prints each figure and row as it is added: a bench that is stopped has printed what it knew.
+/// Prints each figure and row as it is added: a bench that is stopped has printed what it knew. Targets and
+/// controls are those of the table of keys.
 class Report {
  public:
   /// `name` is that of the bench, as the command spells it.
-  explicit Report(std::string name) : name_(std::move(name)) {}
+  Report(std::string name, bool is_quick) : name_(std::move(name)), is_quick_(is_quick) {}
 
-  /// Adds a figure under the key of the issue that asks for it.
+  /// Adds a figure. A row says whether it reaches its target; that of a control, a case in which what is
+  /// measured is broken, must miss the target of its key: where it does not, the figure shows nothing, and
+  /// `controls` fails.
   void add(const std::string& key, double value);
-  /// The same, with a row that says whether it meets its target.
-  void add(const std::string& key, double value, const Target& target);
-  /// The figure of a control, a case in which what is measured is broken: it must miss the figure's target. A
-  /// row says so; where it does not, the figure shows nothing, and `controls` fails.
-  void add_control(const std::string& key, double value, const Target& target);
-  /// The median counts; its interval stands in a row.
+  /// The median counts; its interval stands in the JSON and in a row.
   void add(const std::string& key, const Median& median);
+  /// A figure whose target is measured, too, and its controls.
+  void add(const std::string& key, double value, const Target& target,
+           const std::vector<std::pair<std::string, double>>& controls);
   /// A figure that this machine cannot measure stands in the table as "skipped", and why in a row.
   void skip(const std::string& key, const std::string& why);
-  /// Adds a row of text: how a figure was measured, on which machine.
+  /// Adds a row of text: what was seen beside the figures.
   void note(std::string row);
+  /// The driver that draws what is measured.
+  void set_machine(const std::string& name) { machine_ = name; }
 
-  /// Fails, with their keys, where controls have met their targets.
+  /// Fails, with their keys, where controls have reached their targets.
   Status controls() const;
-  /// {"bench": NAME, "figures": {KEY: number, ...}, "rows": [...]}
+  /// {"bench": NAME, "quick": bool, "machine": text, "figures": {KEY: number, ...}, "keys": [...], "rows":
+  /// [...]}
   Status write(const std::filesystem::path& file) const;
 
  private:
-  std::string name_;
-  std::vector<std::pair<std::string, double>> figures_;
+  struct Figure {
+    std::string key;
+    Median value;
+    const Key* row = nullptr;     ///< in the table of keys
+    Target target = {};           ///< of the key, or of the key whose control this is
+    std::string control_of = {};  ///< the key that it must not resemble; empty: no control
+  };
+  void add(Figure figure);
+
+  std::string name_, machine_;
+  bool is_quick_;
+  std::vector<Figure> figures_;
   std::vector<std::string> rows_, passed_controls_;
 };
 

@@ -1,16 +1,76 @@
-// parvis plan: a scene as a plan, for offices: PDF at a true scale, DXF, CSV.
+// parvis plan: a project is placed in a scene, without a window; and a scene as a plan, for offices: PDF at a
+// true scale, DXF, CSV.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "base/files.h"
 #include "commands.h"
+#include "planning/design/design_file.h"
+#include "planning/design/session.h"
 #include "planning/plan_drawing/plan_files.h"
 #include "scene_arguments.h"
 
 namespace parvis {
 namespace {
 
-struct Arguments : SceneArguments {
+struct Arguments {
+  SceneArguments scene;
   std::filesystem::path pdf, dxf, csv;
   plan_drawing::Sheet sheet;
   std::string centre;
+  std::string design;
+  std::vector<std::string> commands;
+  std::filesystem::path command_file, import_json, output, json;
+  bool lists_objects = false, lists_kinds = false, keeps_journal = false;
 };
+
+void list_kinds(const scene::Scene& scene) {
+  for (const design::Kind& kind : design::kinds_of(scene))
+    fmt::print("{:<14} {:<18} {:<20} {:g} x {:g} x {:g} m\n", kind.name, kind.label, kind.label_fr,
+               kind.size_m.x, kind.size_m.y, kind.size_m.z);
+}
+
+void list_objects(const design::Session& session) {
+  for (const design::PlacedObject& object : session.objects())
+    fmt::print("{:<18} {:<14} {:.3f},{:.3f},{:.3f} heading {:g}, {:g} x {:g} x {:g} m{}\n", object.name,
+               object.kind, object.position.x, object.position.y, object.position.z, object.heading_deg,
+               object.size_m.x, object.size_m.y, object.size_m.z, object.is_locked ? ", locked" : "");
+}
+
+/// The lines of a file; # begins a comment.
+Result<std::vector<std::pair<std::string, int>>> lines_of(const std::filesystem::path& file) {
+  const Result<std::string> text = read_file(file, 64u << 20);
+  if (!text) return text.errors();
+  std::vector<std::pair<std::string, int>> lines;
+  int number = 0;
+  for (std::size_t at = 0; at < text->size();) {
+    const std::size_t end = std::min(text->find('\n', at), text->size());
+    std::string line = text->substr(at, end - at);
+    ++number;
+    if (const std::size_t comment = line.find("# "); comment != std::string::npos || line.starts_with('#'))
+      line.resize(line.starts_with('#') ? 0 : comment);
+    if (line.find_first_not_of(" \t\r") != std::string::npos) lines.emplace_back(std::move(line), number);
+    at = end + 1;
+  }
+  return lines;
+}
+
+Status run_commands(const Arguments& arguments, design::Session& session) {
+  if (!arguments.command_file.empty()) {
+    const auto lines = lines_of(arguments.command_file);
+    if (!lines) return lines.errors();
+    for (const auto& [line, number] : *lines)
+      if (Status status = session.run(line); !status)
+        return error_at({arguments.command_file.string(), number, 1}, "{}", status.errors().front().message);
+  }
+  for (const std::string& command : arguments.commands)
+    if (Status status = session.run(command); !status)
+      return error("--do \"{}\": {}", command, status.errors().front().message);
+  return Done{};
+}
 
 Status read_centre(const std::string& text, plan_drawing::Sheet& sheet) {
   if (text.empty()) return Done{};
@@ -20,18 +80,16 @@ Status read_centre(const std::string& text, plan_drawing::Sheet& sheet) {
   return Done{};
 }
 
-Status write_plan(Arguments arguments) {
-  if (arguments.pdf.empty() && arguments.dxf.empty() && arguments.csv.empty())
-    return error("nothing to write; give --pdf, --dxf or --csv with a file");
-  if (Status status = read_centre(arguments.centre, arguments.sheet); !status) return status;
-  if (Status status = arguments.expect_one_scenario(); !status) return status;
-  const Result<house::Play> play = arguments.open_play();
-  if (!play) return play.errors();
-  const plan_drawing::ScenePlan plan = plan_drawing::plan_of(play->scene, {});
-  if (arguments.sheet.title.empty()) arguments.sheet.title = arguments.scene.stem().string();
+/// The scene with its designs on paper.
+Status write_drawings(const Arguments& arguments, const house::Play& play) {
+  if (arguments.pdf.empty() && arguments.dxf.empty() && arguments.csv.empty()) return Done{};
+  plan_drawing::Sheet sheet = arguments.sheet;
+  if (Status status = read_centre(arguments.centre, sheet); !status) return status;
+  const plan_drawing::ScenePlan plan =
+      plan_drawing::plan_of(play.scene, design::placed_objects(play.scene, play.live(), "", true));
+  if (sheet.title.empty()) sheet.title = arguments.scene.scene.stem().string();
   if (!arguments.pdf.empty())
-    if (Status status = plan_drawing::write_plan_pdf(arguments.pdf, plan, arguments.sheet); !status)
-      return status;
+    if (Status status = plan_drawing::write_plan_pdf(arguments.pdf, plan, sheet); !status) return status;
   if (!arguments.dxf.empty())
     if (Status status = plan_drawing::write_plan_dxf(arguments.dxf, plan); !status) return status;
   if (!arguments.csv.empty())
@@ -42,13 +100,65 @@ Status write_plan(Arguments arguments) {
   return Done{};
 }
 
+Status plan(const Arguments& arguments) {
+  if (Status status = arguments.scene.expect_one_scenario(); !status) return status;
+  Result<house::Play> play = arguments.scene.open_play();
+  if (!play) return play.errors();
+  if (arguments.lists_kinds) list_kinds(play->scene);
+  Result<design::Session> session = design::Session::open(play->scene, play->live(), arguments.design,
+                                                          design::resting_heights(play->scene));
+  if (!session) return session.errors();
+  if (arguments.keeps_journal) {
+    const Result<std::string> restored =
+        session->keep_journal(design::journal_file(arguments.scene.scene, session->name()));
+    if (!restored) return restored.errors();
+    if (!restored->empty()) fmt::print("{}\n", *restored);
+  }
+  if (!arguments.import_json.empty()) {
+    const Result<std::string> text = read_file(arguments.import_json, 256u << 20);
+    if (!text) return text.errors();
+    if (Status status = design::read_json(*text, arguments.import_json.string(), *session); !status)
+      return status;
+  }
+  if (Status status = run_commands(arguments, *session); !status) return status;
+  if (arguments.lists_objects) list_objects(*session);
+  if (!arguments.json.empty())
+    if (Status status = write_file(arguments.json, design::json_of(play->scene, *session)); !status)
+      return status;
+  if (!arguments.output.empty()) {
+    if (Status status = design::save(*session, play->scene.file, arguments.output); !status) return status;
+    fmt::print("{}: design \"{}\" with {} objects\n", arguments.output.string(), session->name(),
+               session->objects().size());
+    if (Status status = session->note_saved(); !status) return status;
+  }
+  return write_drawings(arguments, *play);
+}
+
 }  // namespace
 
 void add_plan(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("plan", "A scene as a plan: PDF at a true scale, DXF, CSV");
+  CLI::App* command = app.add_subcommand(
+      "plan", "Places a project in a scene; and the scene as a plan: PDF at a true scale, DXF, CSV");
   const auto arguments = std::make_shared<Arguments>();
-  arguments->add_scene(*command);
-  arguments->add_state(*command);
+  arguments->scene.add_scene(*command);
+  arguments->scene.add_state(*command);
+  command->add_option("--design", arguments->design,
+                      "Name of the design (default: the scene's first, or a new one)");
+  command
+      ->add_option("--do", arguments->commands,
+                   "A command, as \"insert bench_wood 12.40,3.05 heading 90\"; may repeat")
+      ->allow_extra_args(false);
+  command->add_option("--file", arguments->command_file,
+                      "A file with a command on each line; # begins a comment");
+  command->add_option("--import", arguments->import_json,
+                      "A design in JSON (docs/design.schema.json), before the commands");
+  command->add_flag("--list", arguments->lists_objects, "Print the objects of the design");
+  command->add_flag("--kinds", arguments->lists_kinds, "Print the kinds of objects that can be placed");
+  command->add_flag(
+      "--journal", arguments->keeps_journal,
+      "Keep a journal beside the scene: undo reaches back over earlier calls, as in the window");
+  command->add_option("--json", arguments->json, "Write the design as JSON");
+  command->add_option("-o,--output", arguments->output, "Write the design (.xp), into the scene's folder");
   command->add_option("--pdf", arguments->pdf, "A sheet with title block, legend, scale bar and north");
   command->add_option("--dxf", arguments->dxf,
                       "A drawing in metres, in map coordinates where there are some");
@@ -59,9 +169,16 @@ void add_plan(CLI::App& app, Chosen& chosen) {
   command->add_option("--centre", arguments->centre, "Middle of the sheet, metres: X,Y in the scene's frame");
   command->add_option("--title", arguments->sheet.title, "Of the title block (default: the scene's name)");
   command->add_option("--subtitle", arguments->sheet.subtitle, "Its second line: project, state, author");
+  std::string forms;
+  for (const std::string& form : design::command_forms()) forms += "\n  " + form;
   command->footer(
-      "Example: parvis plan out/paper/paper.xp --pdf plan.pdf --scale 500 --dxf plan.dxf --csv plan.csv");
-  command->callback([arguments, &chosen] { chosen = [arguments] { return write_plan(*arguments); }; });
+      "Commands:" + forms +
+      "\n  undo | redo | select NAMES|all|none|kind KIND|like NAME|group NAME|box X,Y X,Y\n"
+      "NAMES are parted by commas; * and ? stand for any; \"selected\" is what was selected last.\n"
+      "Example: parvis plan scenes/planned_square.xp --do \"row umbrella from 0,-6 to 12,-6 count 4\" "
+      "-o scenes/planned_square.xp\n"
+      "         parvis plan out/paper/paper.xp --pdf plan.pdf --scale 500 --dxf plan.dxf --csv plan.csv");
+  command->callback([arguments, &chosen] { chosen = [arguments] { return plan(*arguments); }; });
 }
 
 }  // namespace parvis

@@ -48,7 +48,7 @@ Result<int> frames_of(const RenderArguments& arguments, const std::filesystem::p
 }
 
 /// What the script says, and what was changed since.
-void add(ContentHash& hash, const std::vector<scene::Node>& nodes) {
+void add(ContentHash& hash, const scene::Nodes& nodes) {
   for (const scene::Node& node : nodes) {
     hash.add_text(node.schema->type);
     for (const std::vector<scene::NodeAttribute>& attributes : {node.attributes, node.overrides})

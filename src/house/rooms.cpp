@@ -19,6 +19,7 @@
 #include "life/vegetation/room.h"
 #include "places/dressing/room.h"
 #include "places/kerbside/room.h"
+#include "planning/design/room.h"
 #include "planning/plan_drawing/room.h"
 #include "reflections/environment_rays/room.h"
 #include "reflections/local_maps/room.h"
@@ -38,25 +39,37 @@ namespace {
 
 /// One line per room. The scene reference lists node types, and --help methods, in this order.
 constexpr Furnish rooms[]{
-    script::furnish,          gltf::furnish,
-    city_models::furnish,     ifc::furnish,
-    inventor::furnish,        terrain::furnish,
+    script::furnish,
+    gltf::furnish,
+    city_models::furnish,
+    ifc::furnish,
+    inventor::furnish,
+    terrain::furnish,
     meshes::furnish,
     dressing::furnish,  // before roads: see its docstring
-    roads::furnish,           traffic::furnish,
-    crowd::furnish,           light::furnish,
+    roads::furnish,
+    traffic::furnish,
+    crowd::furnish,
+    light::furnish,
     kerbside::furnish,  // after roads
     action::furnish,
     shadows::furnish,        // after light, whose shadows it replaces
     lamps::furnish,          // after shadows: its light is laid over that one
     bounced_light::furnish,  // likewise; before what is baked in its light
-    probes::furnish,          environment_rays::furnish,
-    traced::furnish,          local_maps::furnish,
-    reflector_maps::furnish,  reference_maps::furnish,
-    virtual_objects::furnish, refraction::furnish,
+    probes::furnish,
+    environment_rays::furnish,
+    traced::furnish,
+    local_maps::furnish,
+    reflector_maps::furnish,
+    reference_maps::furnish,
+    virtual_objects::furnish,
+    refraction::furnish,
     lit_objects::furnish,  // after all processes that move things
-    facades::furnish,         trees::furnish,
-    vegetation::furnish,      view_dependent_objects::furnish,
+    facades::furnish,
+    trees::furnish,
+    vegetation::furnish,
+    design::furnish,  // after vegetation, whose plants it places
+    view_dependent_objects::furnish,
     plan_drawing::furnish,
 };
 

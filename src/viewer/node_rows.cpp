@@ -34,7 +34,7 @@ struct Rows {
   }
 
   /// True where one of the nodes is sought, or one inside them.
-  bool add(const std::vector<Node>& nodes, int depth, bool is_in_sight) {
+  bool add(const scene::Nodes& nodes, int depth, bool is_in_sight) {
     bool any_is_sought = false;
     for (const Node& node : nodes) {
       NodeRow row;

@@ -61,7 +61,7 @@ TEST_F(NodeRowsTest, ShowWhatIsOpen) {
   EXPECT_EQ(tree({}), closed);
   const scene::Node* trees = &node("trees");
   EXPECT_EQ(tree({trees}), "sun 140\ngroup trees\n-model oak\n-group \ncamera eye\ntimer clock\n");
-  EXPECT_EQ(tree({trees, &trees->children[1]}),
+  EXPECT_EQ(tree({trees, &*std::next(trees->children.begin())}),
             "sun 140\ngroup trees\n-model oak\n-group \n--model box.glb\ncamera eye\ntimer clock\n");
 }
 
@@ -93,7 +93,7 @@ TEST_F(NodeRowsTest, AttributesComeWithTheirEditors) {
   EXPECT_TRUE(row("oak", "position").is_given);
   EXPECT_FALSE(row("oak", "scale").is_given);
   EXPECT_EQ(row("oak", "scale").numbers[0], 1.0) << "its default";
-  const scene::Node& copies = node("trees").children[1].children[0];
+  const scene::Node& copies = std::next(node("trees").children.begin())->children.front();
   for (const AttributeRow& each : attribute_rows(live(), copies))
     if (each.schema->name == "positions") {
       EXPECT_EQ(each.text, "2 values: 0 0");
@@ -106,7 +106,7 @@ TEST_F(NodeRowsTest, FixedAttributesSayWhy) {
   EXPECT_NE(row("oak", "name").fixed_because, "");
   EXPECT_NE(row("oak", "reflective").fixed_because, "");
   EXPECT_NE(row("clock", "onTime").fixed_because.find("event"), std::string::npos);
-  const scene::Node& material = node("oak").children[0];
+  const scene::Node& material = node("oak").children.front();
   for (const AttributeRow& each : attribute_rows(live(), material))
     EXPECT_NE(each.fixed_because.find("part of the node around it"), std::string::npos) << each.label;
 }

@@ -23,7 +23,7 @@ constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoTitleBar | ImGuiWin
                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
 
 /// Names of the scene's tours, those inside groups too.
-void add_tours(const std::vector<scene::Node>& nodes, std::vector<std::string>& names) {
+void add_tours(const scene::Nodes& nodes, std::vector<std::string>& names) {
   for (const scene::Node& node : nodes) {
     if (node.schema->type == "tour") names.push_back(node.text("name"));
     add_tours(node.children, names);

@@ -2,6 +2,7 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -10,7 +11,23 @@
 #include "capture/trees/shown_tree.h"
 #include "capture/trees/tree_file.h"
 
-namespace parvis::trees {
+namespace parvis::bench {
+
+void Means::report() const {
+  for (const Entry& entry : entries_) {
+    const double mean = entry.sum / entry.count;
+    if (!std::isfinite(mean)) fail("{}: the figure is {}, no number", entry.key, mean);
+    report_.add(entry.key, mean);
+  }
+}
+
+void Means::add(const std::string& key, double value) {
+  report_.note(fmt::format("{}: {} {:.4g}", tree_, key, value));
+  auto entry = std::ranges::find(entries_, key, &Entry::key);
+  if (entry == entries_.end()) entry = entries_.insert(entries_.end(), {key, 0.0, 0.0});
+  entry->sum += value, entry->count += 1.0;
+}
+
 namespace {
 
 constexpr std::size_t timed_threads = 2;  // the minutes are those of two cores
@@ -31,20 +48,19 @@ class Clock {
 
 }  // namespace
 
-BenchCaptureSize bench_capture_size(const FigureOptions& options) {
+BenchCaptureSize bench_capture_size(const BenchSetup& setup) {
   BenchCaptureSize size;
-  if (!options.is_quick) return size;
+  if (!setup.is_quick) return size;
   size.capture.width = size.capture.height = 200;
   size.options.grid.level = 3;
   size.held_out = 6;
   return size;
 }
 
-Result<SampleCapture> sample_capture(std::string_view name, int views, const BenchCaptureSize& size) {
-  Result<scene::Model> model = make_sample_tree(name, 1);
-  if (!model) return model.errors();
-  const Bounds bounds = scene::bounds(*model);
-  SampleCapture capture{*std::move(model), {}, {}, held_out_cameras(bounds, size.held_out, 5)};
+SampleCapture sample_capture(std::string_view name, int views, const BenchCaptureSize& size) {
+  scene::Model model = must(make_sample_tree(name, 1));
+  const Bounds bounds = scene::bounds(model);
+  SampleCapture capture{std::move(model), {}, {}, held_out_cameras(bounds, size.held_out, 5)};
   capture.held_out = photograph_tree(capture_scene(capture.model, {}), capture.held_out_cameras,
                                      std::string(name) + " held out", truth_options(size));
   return with_photographs(capture, views, size);
@@ -64,31 +80,28 @@ CaptureOptions truth_options(const BenchCaptureSize& size) {
   return options;
 }
 
-Result<ReconstructedTree> reconstructed_tree(const SampleCapture& capture, const BenchCaptureSize& size) {
+ReconstructedTree reconstructed_tree(const SampleCapture& capture, const BenchCaptureSize& size) {
   const tbb::global_control two_cores(tbb::global_control::max_allowed_parallelism, timed_threads);
   Clock whole, clock;
-  Result<Reconstruction> found = reconstruct(capture.views, size.options);
-  if (!found) return found.errors();
+  Reconstruction found = must(reconstruct(capture.views, size.options));
   ReconstructedTree made;
-  made.volume = std::move(found->volume), made.times = std::move(found->times);
-  made.notes = std::move(found->notes);
+  made.volume = std::move(found.volume), made.times = std::move(found.times);
+  made.notes = std::move(found.notes);
   clock.lap();
   const BillboardTree tree = textured(made.volume, capture.views, {});
   made.times.push_back({"textures", clock.lap()});
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() /
       fmt::format("parvis_bench_{}.tree", std::chrono::steady_clock::now().time_since_epoch().count());
-  const Result<std::size_t> bytes = write_tree(file, tree);
-  if (!bytes) return bytes.errors();
+  const std::size_t bytes = must(write_tree(file, tree));
   made.times.push_back({"file", clock.lap()});
-  Result<BillboardTree> read = read_tree(file);
+  BillboardTree read = must(read_tree(file));
   std::error_code code;
   std::filesystem::remove(file, code);
-  if (!read) return read.errors();
-  made.levels = std::make_shared<const TreeLevels>(levels_of(*std::move(read)));
+  made.levels = std::make_shared<const TreeLevels>(levels_of(std::move(read)));
   made.times.push_back({"levels", clock.lap()});
   made.seconds = whole.lap();
-  made.megabytes = double(*bytes) * 1e-6;
+  made.megabytes = double(bytes) * 1e-6;
   return made;
 }
 
@@ -102,19 +115,16 @@ std::shared_ptr<const TreeLevels> levels_from(const TreeVolume& volume, std::spa
 namespace {
 
 /// Of what is shown, as a camera of this exposure sees it.
-Result<ViewErrors> errors_of_shown(Result<ShownTree> shown, float exposure, std::span<const TreeView> views) {
-  if (views.empty()) return error("there are no views to compare with");
-  if (!shown) return shown.errors();
+ViewErrors errors_of_shown(ShownTree shown, float exposure, std::span<const TreeView> views) {
+  if (views.empty()) fail("there are no views to compare with");
   ViewErrors mean;
   double squares = 0.0;
   for (const TreeView& view : views) {
-    Result<ImageF> picture = shown->picture(view.camera);
-    if (!picture) return picture.errors();
-    for (std::size_t i = 0; i < picture->pixels.size(); ++i)
-      if (i % 4 != 3) picture->pixels[i] *= exposure;
-    const Result<ViewErrors> one = judged(*picture, view);
-    if (!one) return one.errors();
-    mean += *one, squares += one->alpha_rmse * one->alpha_rmse;
+    ImageF picture = must(shown.picture(view.camera));
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+      if (i % 4 != 3) picture.pixels[i] *= exposure;
+    const ViewErrors one = must(judged(picture, view));
+    mean += one, squares += one.alpha_rmse * one.alpha_rmse;
   }
   mean /= double(views.size());
   mean.alpha_rmse = std::sqrt(squares / double(views.size()));
@@ -123,17 +133,13 @@ Result<ViewErrors> errors_of_shown(Result<ShownTree> shown, float exposure, std:
 
 }  // namespace
 
-Result<ViewErrors> errors_of(const std::shared_ptr<const TreeLevels>& tree, const scene::Scene& light,
-                             std::span<const TreeView> views) {
-  return errors_of_shown(ShownTree::create(tree, light), 1.0f, views);  // its textures are as exposed
+ViewErrors errors_of(const std::shared_ptr<const TreeLevels>& tree, const scene::Scene& light,
+                     std::span<const TreeView> views) {
+  return errors_of_shown(must(ShownTree::create(tree, light)), 1.0f, views);  // its textures are as exposed
 }
 
-Result<ViewErrors> errors_of_mesh(const scene::Model& model, std::span<const TreeView> views) {
-  return errors_of_shown(ShownTree::of_scene(capture_scene(model, {})), capture_exposure, views);
-}
-
-Result<ViewErrors> errors_of(const std::shared_ptr<const TreeLevels>& tree, std::span<const TreeView> views) {
+ViewErrors errors_of(const std::shared_ptr<const TreeLevels>& tree, std::span<const TreeView> views) {
   return errors_of(tree, scene_in_light_of(tree->levels.front().light), views);
 }
 
-}  // namespace parvis::trees
+}  // namespace parvis::bench

@@ -1,10 +1,12 @@
-// The captures and reconstructions that figures of trees are measured on.
+// A tree that is photographed and reconstructed, and what its pictures are worth.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "bench/trees/tree_figures.h"
+#include "bench/bench.h"
 #include "capture/trees/billboard_textures.h"
 #include "capture/trees/billboard_tree.h"
 #include "capture/trees/judge.h"
@@ -12,7 +14,32 @@
 #include "capture/trees/synthetic_capture.h"
 #include "capture/trees/tree_levels.h"
 
-namespace parvis::trees {
+namespace parvis::bench {
+
+using namespace trees;
+
+/// Sums over trees, reported as means; each tree's own value is noted as it comes.
+class Means {
+ public:
+  /// The report outlives it.
+  explicit Means(Report& report) : report_(report) {}
+  /// What is added from now on is that of this tree.
+  void begin_tree(std::string_view name) { tree_ = name; }
+  void add(const std::string& key, double value);
+  /// Adds all means to the report, in the order in which their keys came first. Fails where one is no finite
+  /// number.
+  void report() const;
+
+ private:
+  struct Entry {
+    std::string key;
+    double sum, count;
+  };
+
+  Report& report_;
+  std::string tree_;
+  std::vector<Entry> entries_;
+};
 
 /// How large captures are.
 struct BenchCaptureSize {
@@ -23,7 +50,7 @@ struct BenchCaptureSize {
   int held_out = 40, many = 100;  ///< photographs left out, and of the larger capture
 };
 /// The sizes of the full run, or of the quick one.
-BenchCaptureSize bench_capture_size(const FigureOptions& options);
+BenchCaptureSize bench_capture_size(const BenchSetup& setup);
 
 /// A sample tree, photographed.
 struct SampleCapture {
@@ -32,7 +59,7 @@ struct SampleCapture {
   std::vector<Camera> held_out_cameras;
 };
 /// Path-traces a sample tree by its name, from `views` places and from those held out.
-Result<SampleCapture> sample_capture(std::string_view name, int views, const BenchCaptureSize& size);
+SampleCapture sample_capture(std::string_view name, int views, const BenchCaptureSize& size);
 /// The same tree and the same held-out views, with another number of photographs.
 SampleCapture with_photographs(const SampleCapture& capture, int views, const BenchCaptureSize& size);
 /// How views are traced that pictures are judged by.
@@ -48,7 +75,7 @@ struct ReconstructedTree {
   std::vector<std::string> notes;            ///< per step
 };
 /// All steps from views to a tree that can be drawn, on two cores.
-Result<ReconstructedTree> reconstructed_tree(const SampleCapture& capture, const BenchCaptureSize& size);
+ReconstructedTree reconstructed_tree(const SampleCapture& capture, const BenchCaptureSize& size);
 
 /// A tree of a volume as the house would read it from a file.
 std::shared_ptr<const TreeLevels> levels_from(const TreeVolume& volume, std::span<const TreeView> views,
@@ -56,12 +83,9 @@ std::shared_ptr<const TreeLevels> levels_from(const TreeVolume& volume, std::spa
 
 /// Mean errors of what the house draws of a tree from the places of views, in the light of `light`; alpha's
 /// root mean square over all of them. Needs a current OpenGL context. Errors: no views.
-Result<ViewErrors> errors_of(const std::shared_ptr<const TreeLevels>& tree, const scene::Scene& light,
-                             std::span<const TreeView> views);
+ViewErrors errors_of(const std::shared_ptr<const TreeLevels>& tree, const scene::Scene& light,
+                     std::span<const TreeView> views);
 /// The same in the light of the tree's photographs.
-Result<ViewErrors> errors_of(const std::shared_ptr<const TreeLevels>& tree, std::span<const TreeView> views);
-/// The same of the mesh that was photographed, as the house draws any object, at full detail: its shape is
-/// exact, but leaves do not hide the sky from each other as they do in photographs.
-Result<ViewErrors> errors_of_mesh(const scene::Model& model, std::span<const TreeView> views);
+ViewErrors errors_of(const std::shared_ptr<const TreeLevels>& tree, std::span<const TreeView> views);
 
-}  // namespace parvis::trees
+}  // namespace parvis::bench

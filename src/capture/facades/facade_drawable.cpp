@@ -161,6 +161,7 @@ class FacadeDrawable final : public render::Drawable {
     }
   }
 
+  void renumber(int first_thing) override { first_thing_ = first_thing; }
   Extents extents() const override { return things_.extents(); }
 
   void prepare(const render::View& view, const Culling& culling) override {

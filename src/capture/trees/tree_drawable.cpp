@@ -140,6 +140,7 @@ class TreeDrawable final : public render::Drawable {
       if (!is_static && tree.is_visible) swaying_.push_back(all);
     }
   }
+  void renumber(int first_thing) override { first_thing_ = first_thing; }
   render::Extents extents() const override {
     render::Extents extents = things_.extents();
     extents.moving = swaying_, extents.things = bounds_;

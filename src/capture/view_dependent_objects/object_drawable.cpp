@@ -54,6 +54,7 @@ class ObjectDrawable final : public render::Drawable {
     }
   }
 
+  void renumber(int first_thing) override { first_thing_ = first_thing; }
   Extents extents() const override { return things_.extents(); }
 
   void prepare(const View& view, const Culling& culling) override {

@@ -32,7 +32,7 @@ std::set<std::string> parts_of(const std::vector<const scene::Object*>& objects)
 
 /// Lamps that name something, and their nodes. Nodes that are hidden, with their group or for the scenario,
 /// have made no lamp.
-void find_named(const std::vector<scene::Node>& nodes, const std::set<LampNames>& made,
+void find_named(const scene::Nodes& nodes, const std::set<LampNames>& made,
                 std::map<LampNames, const scene::Node*>& found) {
   for (const scene::Node& node : nodes) {
     find_named(node.children, made, found);

@@ -7,6 +7,7 @@
 
 #include "graphics/light/shadow_settings.h"
 #include "scene/script/attribute.h"
+#include "scene/script/live_scene.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::light {
@@ -146,6 +147,21 @@ std::vector<scene::NodeRange> choose(scene::SceneBuilder& builder,
   return nodes;
 }
 
+/// The same in a scene that runs, for objects that have come and groups that hold other nodes now.
+std::vector<scene::NodeRange> choose_again(const scene::LiveScene& live, std::size_t object_count,
+                                           const std::vector<std::pair<std::string, FileLocation>>& groups,
+                                           std::vector<bool>& refuses) {
+  std::vector<scene::NodeRange> nodes;
+  if (groups.empty()) return nodes;
+  refuses.assign(object_count, true);
+  for (const auto& [group, where] : groups)
+    if (const scene::Node* node = live.find(group)) {
+      nodes.push_back(live.range_of(*node));
+      for (const int object : live.objects_of(*node)) refuses[std::size_t(object)] = false;
+    }
+  return nodes;
+}
+
 }  // namespace
 
 void add_shadow_map_node(scene::NodeRegistry& registry) {
@@ -156,6 +172,13 @@ void add_shadow_map_node(scene::NodeRegistry& registry) {
     scene::SunShadows& shadows = builder.scene.data<scene::SunShadows>();
     shadows.caster_nodes = choose(builder, groups.casters, "cast", shadows.casts_none);
     choose(builder, groups.receivers, "receive", shadows.receives_none);
+  });
+  registry.add_follow_step([](const scene::LiveScene& live, scene::Scene& scene) {
+    const ShadowGroups groups = scene.data<ShadowGroups>();
+    if (groups.casters.empty() && groups.receivers.empty()) return;
+    scene::SunShadows& shadows = scene.data<scene::SunShadows>();
+    shadows.caster_nodes = choose_again(live, scene.objects.size(), groups.casters, shadows.casts_none);
+    choose_again(live, scene.objects.size(), groups.receivers, shadows.receives_none);
   });
 }
 

@@ -1,5 +1,7 @@
 #include "graphics/light/sky_textures.h"
 
+#include <algorithm>
+
 #include "graphics/render/bindings.h"
 #include "graphics/render/fixed_parts.h"
 #include "graphics/render/regions.h"
@@ -20,8 +22,8 @@ shading::Heightfield visible_heights(const scene::Scene& scene) {
   return heights;
 }
 
-/// Adds new objects to the heights, and rebuilds the heights where an object has gone. All objects stand
-/// where they stood, seen or hidden, and no room's own drawable has changed.
+/// Adds objects that have come to the heights, and rebuilds the heights where one has gone. No room's own
+/// drawable has changed.
 void renew_heights(const scene::Scene& scene, const render::GpuScene& gpu, shading::Heightfield& heights) {
   const std::vector<Bounds> places_left = render::united(gpu.fixed_change().gone, 0.0f);
   for (const Bounds& place : places_left) heights.clear(place);
@@ -91,8 +93,12 @@ bool SkyTextures::renew_light(const scene::Sky& sky) {
 
 void SkyTextures::renew_visibility(const scene::Scene& scene, const render::GpuScene& gpu,
                                    const render::FixedChange& change) {
-  if (change.has_moved)
-    heights_ = visible_heights(scene);  // its bounds may be others, too
+  const Bounds& place = heights_.bounds();
+  const auto reaches_out = [&](const Bounds& box) {
+    return glm::any(glm::lessThan(box.min, place.min)) || glm::any(glm::greaterThan(box.max, place.max));
+  };
+  if (change.has_moved || std::ranges::any_of(change.come, reaches_out))
+    heights_ = visible_heights(scene);
   else
     renew_heights(scene, gpu, heights_);
   std::vector<Bounds> changed = change.gone;

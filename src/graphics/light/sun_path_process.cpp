@@ -8,7 +8,7 @@ namespace parvis::light {
 namespace {
 
 template <class Visit>
-void for_each_sun_path(const std::vector<scene::Node>& nodes, const Visit& visit) {
+void for_each_sun_path(const scene::Nodes& nodes, const Visit& visit) {
   for (const scene::Node& node : nodes) {
     if (node.schema->type == sun_path_type) visit(node);
     for_each_sun_path(node.children, visit);

@@ -15,7 +15,7 @@ bool can_follow_sky(const LitObject& lit) {
 }
 
 /// Lit nodes, in the order of the script.
-void find_lit_nodes(const std::vector<scene::Node>& nodes, std::vector<const scene::Node*>& found) {
+void find_lit_nodes(const scene::Nodes& nodes, std::vector<const scene::Node*>& found) {
   for (const scene::Node& node : nodes)
     if (node.schema->type == lit_type)
       found.push_back(&node);
@@ -45,17 +45,28 @@ void LightingProcess::settle(scene::Scene& scene) {
   is_settling_ = false;
 }
 
+/// Nodes have come or gone, or objects.
+void LightingProcess::follow_nodes(scene::Scene& scene) {
+  if (edits_ == live_->edits() && object_count_ == scene.objects.size()) return;
+  find_objects(scene);
+  rays_.reset();
+}
+
+/// Of those that are not lit yet.
 void LightingProcess::find_objects(scene::Scene& scene) {
+  const bool begins = std::exchange(edits_, live_->edits()) < 0;
+  object_count_ = scene.objects.size();
   std::vector<const scene::Node*> nodes;
   find_lit_nodes(live_->nodes(), nodes);
   auto& irradiance = scene.data<scene::VertexIrradiance>();
-  std::size_t texels = 0;
   for (const scene::Node* node : nodes) {
     const std::vector<int> objects = live_->objects_of(*node);
-    if (objects.empty()) warn(error_at(node->where, "{} holds no object that could be lit", lit_type));
+    if (objects.empty() && begins)
+      warn(error_at(node->where, "{} holds no object that could be lit", lit_type));
     for (const int object : objects) {
-      texels += LitObject::texel_count(scene.objects[std::size_t(object)]);
-      if (texels > scene::max_lit_texels) {
+      if (irradiance.of(std::size_t(object))) continue;
+      texels_ += LitObject::texel_count(scene.objects[std::size_t(object)]);
+      if (texels_ > scene::max_lit_texels) {
         warn(error_at(node->where,
                       "\"{}\" and what follows it in {} are lit like other objects: light is kept for {} "
                       "vertices at most",
@@ -130,6 +141,7 @@ bool LightingProcess::follow_sky(const scene::Scene& scene) {
 }
 
 void LightingProcess::present(scene::Scene& scene, double /*ahead_s*/) {
+  follow_nodes(scene);
   if (lit_.empty()) return;
   std::vector<const scene::Node*> nodes;
   find_lit_nodes(live_->nodes(), nodes);

@@ -46,6 +46,7 @@ class LightingProcess final : public action::Process {
   };
 
   void find_objects(scene::Scene& scene);
+  void follow_nodes(scene::Scene& scene);
   std::vector<Standing> standing_in(const scene::Scene& scene) const;
   void make_casters(const scene::Scene& scene);
   bool follow_casters(const scene::Scene& scene);
@@ -69,6 +70,9 @@ class LightingProcess final : public action::Process {
   void remember(VertexBlock& block, const LitObject& object);
 
   const scene::LiveScene* live_ = nullptr;
+  int edits_ = -1;                ///< of the nodes, that `lit_` knows of; below 0: none yet
+  std::size_t object_count_ = 0;  ///< of the scene then
+  std::size_t texels_ = 0;
   std::vector<LitObject> lit_;
   std::vector<const scene::Node*> lit_nodes_;  ///< of each
   std::vector<bool> was_visible_;              ///< of each, at the moment before

@@ -53,7 +53,7 @@ scene::NodeSchema lit_virtual_object_schema() {
 /// Nodes of rooms that draw by themselves, whose vertices get no light of their own: groups may hold them.
 constexpr std::array<std::string_view, 4> drawn_otherwise{"plant", "tree", "facade", "vdobject"};
 
-void find_drawn_otherwise(const std::vector<scene::Node>& nodes, std::vector<const scene::Node*>& found) {
+void find_drawn_otherwise(const scene::Nodes& nodes, std::vector<const scene::Node*>& found) {
   for (const scene::Node& node : nodes) {
     if (std::ranges::find(drawn_otherwise, node.schema->type) != drawn_otherwise.end())
       found.push_back(&node);

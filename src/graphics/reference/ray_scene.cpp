@@ -154,7 +154,7 @@ RayScene::RayScene(const scene::Scene& scene, Precision precision)
   for (const scene::Object& object : scene.objects)
     for (std::size_t p = 0; p < object.model->parts.size(); ++p) ++placed_[&object.mesh(p)];
   for (std::size_t o = 0; o < scene.objects.size(); ++o) add_object(scene.objects[o], int(o));
-  object_places_ = places_.size();
+  object_places_ = places_.size(), object_count_ = scene.objects.size();
   trace_things(scene);
   commit();
 }
@@ -203,9 +203,24 @@ void RayScene::trace_things_again(const scene::Scene& scene) {
   }
 }
 
+/// Those that have come. What rooms draw by themselves is numbered behind them and has to be traced again.
+void RayScene::add_objects(const scene::Scene& scene) {
+  shadows_ = scene.data<scene::SunShadows>(), leaves_ = scene.data<scene::LeafOpenness>();
+  forget_things();
+  for (std::size_t o = object_count_; o < scene.objects.size(); ++o) {
+    const scene::Object& object = scene.objects[o];
+    for (std::size_t p = 0; p < object.model->parts.size(); ++p)
+      placed_[&object.mesh(p)] += 2;  // never joined
+    add_object(object, int(o));
+    for (const PlacedPart* part : parts_of(int(o))) moved_.push_back(part->bounds);
+  }
+  object_places_ = places_.size(), object_count_ = scene.objects.size();
+}
+
 bool RayScene::update(const scene::Scene& scene) {
-  bool has_changed = false;
   moved_.clear();
+  bool has_changed = scene.objects.size() > object_count_;
+  if (has_changed) add_objects(scene);
   std::size_t next = 0;
   for (const scene::Object& object : scene.objects) {
     const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;

@@ -107,8 +107,8 @@ class RayScene {
   ~RayScene();
 
   /// Takes over where objects and traced things stand now, which of them are visible, and how meshes are
-  /// deformed. The objects and their models must be those of the scene that this was made of.
-  /// True where anything has changed.
+  /// deformed. The objects and their models must be those of the scene that this was made of, with new ones
+  /// behind them. True where anything has changed.
   bool update(const scene::Scene& scene);
   /// Boxes about what moved, appeared, vanished or was deformed at the last update: of each object or traced
   /// part one before and one after it.
@@ -158,6 +158,7 @@ class RayScene {
   void place(const PlacedPart& part, bool is_visible, bool may_join = false);
   void commit();
   bool move(std::size_t place, const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_visible);
+  void add_objects(const scene::Scene& scene);
   void trace_things(const scene::Scene& scene);
   void trace_things_again(const scene::Scene& scene);
   std::vector<std::unique_ptr<PlacedPart>> forget_things();
@@ -183,6 +184,7 @@ class RayScene {
   std::unordered_map<const Mesh*, int> placed_;      ///< how many parts of objects have the mesh
   std::vector<std::unique_ptr<PlacedPart>> places_;  ///< by instance: parts of objects, then traced things
   std::size_t object_places_ = 0;                    ///< how many of them are parts of objects
+  std::size_t object_count_ = 0;                     ///< of the scene
   std::map<std::pair<const Mesh*, bool>, RTCSceneTy*> mesh_scenes_;  ///< with filters and without
   std::unordered_map<const scene::Model*, std::unique_ptr<std::vector<MipTexture>>> textures_;
   std::vector<std::shared_ptr<const void>> kept_;  ///< meshes, models and surfaces of traced things

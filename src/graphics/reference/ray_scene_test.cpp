@@ -374,5 +374,27 @@ TEST(RayScene, FineRaysKnowTheSidesOfAnEdge) {
   EXPECT_GT(wrong_coarse, 20) << "the control: single precision cannot";
 }
 
+TEST(RayScene, ObjectsComeWhileItIsUpdated) {
+  scene::Scene scene = three_things();
+  RayScene rays(scene);
+  const auto post =
+      scene::model_of(scene::box({-0.2f, -0.2f, 0}, {0.2f, 0.2f, 3}), scene::matt(glm::vec3(0.5f)));
+  scene::add(scene, post, false, glm::translate(glm::mat4(1.0f), glm::vec3(2, 1, 0)));
+  scene::add(scene, scene.objects[1].model, true, glm::translate(glm::mat4(1.0f), glm::vec3(-3, 0, 0)));
+  EXPECT_TRUE(rays.update(scene));
+  ASSERT_EQ(rays.moved().size(), 2u);
+  EXPECT_NEAR(rays.moved()[0].max.z, 3.0f, 1e-6f);
+  expect_same(rays, scene, "two have come");
+  EXPECT_EQ(rays.nearest_hit({{2, 1, 9}, {0, 0, -1}})->place->object, 3);
+  EXPECT_FALSE(rays.update(scene)) << "nothing has changed since";
+  scene.objects[3].world_from_model[3].x = -2.0f;
+  scene.objects[0].is_visible = false;
+  EXPECT_TRUE(rays.update(scene));
+  expect_same(rays, scene, "one of them has moved, and an old one is hidden");
+  scene.objects[3].is_visible = false;
+  EXPECT_TRUE(rays.update(scene));
+  expect_same(rays, scene, "and is gone");
+}
+
 }  // namespace
 }  // namespace parvis::reference

@@ -19,7 +19,7 @@ namespace parvis::render {
 struct FixedChange {
   std::vector<Bounds> gone;  ///< former bounds
   std::vector<Bounds> come;  ///< new bounds
-  bool has_moved = false;    ///< at least one was moved
+  bool has_moved = false;    ///< at least one was moved that is no object of the scene
 
   bool empty() const { return gone.empty() && come.empty(); }
 };
@@ -40,6 +40,9 @@ struct Extents {
 class Drawable {
  public:
   virtual ~Drawable() = default;
+  /// The number of its thing 0 (DrawableKind::make) is another one: there are more objects, or things before
+  /// it.
+  virtual void renumber(int /*first_thing*/) {}
   /// Called once per frame, before any view: takes over changes of the scene.
   virtual void update(const scene::Scene&) {}
   /// Bounds after the last update; see Extents.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace parvis::render {
 
@@ -21,21 +22,26 @@ void Drawables::furnish(scene::Scene& scene) const {
   for (const DrawableKind& kind : kinds_) scene.traced_kinds.push_back(kind.traced);
 }
 
-Result<std::vector<std::unique_ptr<Drawable>>> Drawables::make(const scene::Scene& scene) const {
-  std::vector<std::unique_ptr<Drawable>> made;
+Status Drawables::follow(const scene::Scene& scene, std::vector<Made>& made) const {
   Errors errors;
   scene::for_each_traced_kind(scene, [&](const scene::TracedKind& traced, int first_thing) {
+    const auto known = std::ranges::find(made, traced.name, &Made::kind);
+    if (known != made.end()) {
+      if (std::exchange(known->first_thing, first_thing) != first_thing)
+        known->drawable->renumber(first_thing);
+      return;
+    }
     const DrawableKind* kind = find(traced.name);
     if (!kind)
       return errors.push_back({fmt::format("the scene has {}, which nothing draws", traced.name), {}});
     Result<std::unique_ptr<Drawable>> drawable = kind->make(scene, first_thing);
     if (drawable)
-      made.push_back(*std::move(drawable));
+      made.push_back({traced.name, first_thing, *std::move(drawable)});
     else
       errors.insert(errors.end(), drawable.errors().begin(), drawable.errors().end());
   });
   if (!errors.empty()) return errors;
-  return made;
+  return Done{};
 }
 
 }  // namespace parvis::render

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -34,9 +35,16 @@ class Drawables {
 
   /// To be called for each scene that is loaded: from then on renderers and ray tracers show these kinds.
   void furnish(scene::Scene& scene) const;
-  /// The drawables of all kinds of which the scene has things. A scene's kind that is not registered here is
-  /// an error: it would be traced, but not drawn.
-  Result<std::vector<std::unique_ptr<Drawable>>> make(const scene::Scene& scene) const;
+  /// A kind's drawable in a scene.
+  struct Made {
+    std::string kind;
+    int first_thing = 0;  ///< the number of its thing 0
+    std::unique_ptr<Drawable> drawable;
+  };
+  /// Makes the drawables of all kinds of which the scene has things and which are not among `made`, and gives
+  /// those that are there the numbers of their things. A scene's kind that is not registered here is an
+  /// error: it would be traced, but not drawn.
+  Status follow(const scene::Scene& scene, std::vector<Made>& made) const;
 
  private:
   std::vector<DrawableKind> kinds_;

@@ -1,5 +1,5 @@
-// All triangles of a scene in one vertex and one index buffer. Deforming meshes follow all rigid ones and are
-// uploaded together, in one range, every frame.
+// All triangles of a scene in one vertex and one index buffer, which grow as meshes come. Deforming meshes
+// that were added one after another are uploaded together every frame.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct MeshRange {
   std::int32_t base_vertex;
 };
 
-/// The shared vertex and index buffer of a scene: meshes are added, uploaded once, and deforming ones updated
+/// The shared vertex and index buffer of a scene: meshes are added, uploaded, and deforming ones updated
 /// every frame.
 class GpuGeometry {
  public:
@@ -35,14 +35,13 @@ class GpuGeometry {
     glm::vec2 second_uv{0.0f};
   };
 
-  /// Appends a rigid mesh; all of them come before the first deforming one. `openness`: by vertex; empty: all
-  /// is open.
+  /// Appends a rigid mesh. `openness`: by vertex; empty: all is open.
   MeshRange add(const Mesh& mesh, std::span<const float> openness = {});
   /// Appends further triangles over the vertices of `mesh` (a coarser level of detail).
   MeshRange add_triangles(const MeshRange& mesh, const std::vector<std::uint32_t>& indices);
-  /// Appends a mesh that deforms; no rigid mesh may follow.
+  /// Appends a mesh that deforms.
   MeshRange add_deforming(const Mesh& mesh);
-  /// Creates the buffers: nothing can be added afterwards.
+  /// Uploads what was added since the last call; the buffers may be others afterwards.
   void upload();
 
   /// Copies positions and normals of a deformed mesh, which has as many vertices as the one added;
@@ -59,10 +58,19 @@ class GpuGeometry {
  private:
   MeshRange append(const Mesh& mesh, std::span<const float> openness);
 
-  std::vector<Vertex> vertices_;  ///< after `upload`: only those of deforming meshes
-  std::vector<Detail> details_;
-  std::vector<std::uint32_t> indices_;
-  std::size_t rigid_vertices_ = 0;
+  /// Deforming vertices side by side, in the buffer as well.
+  struct Run {
+    std::size_t first_in_buffer, first, count;
+  };
+  std::size_t end_vertex() const { return uploaded_vertices_ + vertices_.size(); }
+
+  std::vector<Vertex> vertices_;        ///< to be uploaded
+  std::vector<Detail> details_;         ///< of them, where any mesh has some
+  std::vector<std::uint32_t> indices_;  ///< to be uploaded
+  std::vector<Vertex> deforming_;
+  std::vector<Run> runs_;  ///< of them, ascending
+  std::size_t uploaded_vertices_ = 0, uploaded_details_ = 0, uploaded_indices_ = 0;
+  std::size_t vertex_room_ = 0, detail_room_ = 0, index_room_ = 0;  ///< of the buffers
   gl::Buffer vertex_buffer_, detail_buffer_, index_buffer_;
 };
 

@@ -1,9 +1,9 @@
 #include "graphics/render/gpu_scene.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <glm/gtc/type_precision.hpp>
-#include <map>
 #include <utility>
 
 #include "base/memory_budget.h"
@@ -15,7 +15,6 @@
 #include "graphics/shading/glsl.h"
 #include "scene/data/leaf_openness.h"
 #include "scene/data/mip_levels.h"
-#include "scene/data/sun_shadows.h"
 #include "scene/data/surroundings.h"
 #include "scene/data/vertex_irradiance.h"
 
@@ -110,15 +109,23 @@ GpuScene::GpuScene(const scene::Scene& scene) {
   glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &block_stride_);
   block_stride_ = (GLint(sizeof(Material)) + block_stride_ - 1) / block_stride_ * block_stride_;
 
-  add_models(scene);
-  add_levels(scene);
-  add_painted_parts(scene);
-  add_deformed_parts(scene);
-  add_lit_parts(scene);
+  add_objects(scene);
+  std::ranges::transform(scene.objects, is_visible_.begin(), &scene::Object::is_visible);
+}
+
+/// All of the scene that are not there yet; hidden until the next update.
+void GpuScene::add_objects(const scene::Scene& scene) {
+  const std::size_t first_object = first_part_.size(), known_materials = materials_.size();
+  const std::vector<const scene::Model*> models = add_models(scene);
+  add_surface_levels(scene);
+  add_foliage_levels(scene, models);
+  add_painted_parts(scene, first_object);
+  add_deformed_parts(scene, first_object);
+  add_lit_parts(scene, first_object);
   geometry_.upload();
-  material_blocks_ = gl::immutable_buffer(std::span<const std::byte>(material_bytes_));
-  material_bytes_ = {};
-  make_items(scene);
+  if (materials_.size() > known_materials)
+    material_blocks_ = gl::immutable_buffer(std::span<const std::byte>(material_bytes_));
+  make_items(scene, first_object);
 }
 
 GLuint GpuScene::plain_texture(glm::u8vec4 colour) {
@@ -127,13 +134,16 @@ GLuint GpuScene::plain_texture(glm::u8vec4 colour) {
   return textures_.back().name();
 }
 
-void GpuScene::add_models(const scene::Scene& scene) {
+/// Returns those that are new.
+std::vector<const scene::Model*> GpuScene::add_models(const scene::Scene& scene) {
   const auto& leaves = scene.data<scene::LeafOpenness>();
-  for (const scene::Object& object : scene.objects) {
-    const scene::Model& model = *object.model;
+  std::vector<const scene::Model*> models;
+  for (std::size_t o = first_part_.size(); o < scene.objects.size(); ++o) {
+    const scene::Model& model = *scene.objects[o].model;
     const auto [first, is_new] = first_part_of_model_.try_emplace(&model, int(parts_.size()));
     first_part_.push_back(first->second);
     if (!is_new) continue;
+    models.push_back(&model);
     upload_textures(model);
     const int first_material = add_materials(model, model.materials);
     for (std::size_t p = 0; p < model.parts.size(); ++p) {
@@ -144,11 +154,7 @@ void GpuScene::add_models(const scene::Scene& scene) {
                         0, 0});
     }
   }
-}
-
-void GpuScene::add_levels(const scene::Scene& scene) {
-  add_surface_levels(scene);
-  add_foliage_levels(scene);
+  return models;
 }
 
 /// For dynamic objects and for models placed many times: only they are far away as a whole.
@@ -156,13 +162,15 @@ void GpuScene::add_surface_levels(const scene::Scene& scene) {
   std::unordered_map<const scene::Model*, int> uses;
   for (const scene::Object& object : scene.objects) uses[object.model.get()] += object.is_dynamic ? 2 : 1;
   std::vector<std::pair<const Mesh*, PartRange*>> wanted;
-  for (const auto& [model, first_part] : first_part_of_model_)
+  for (const auto& [model, first_part] : first_part_of_model_) {
+    if (uses[model] <= 1 || !levelled_.insert(model).second) continue;
     for (std::size_t p = 0; p < model->parts.size(); ++p) {
       const scene::Part& part = model->parts[p];
       const bool is_opaque = model->materials[std::size_t(part.material)].alpha_mode == scene::Alpha::opaque;
-      if (uses[model] > 1 && is_opaque && !part.deformation)
+      if (is_opaque && !part.deformation)
         wanted.emplace_back(&part.mesh, &parts_[std::size_t(first_part) + p]);
     }
+  }
   std::vector<std::vector<MeshLevel>> levels(wanted.size());
   parallel_for(wanted.size(), [&](std::size_t i) { levels[i] = coarser_levels(*wanted[i].first); });
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -175,7 +183,7 @@ void GpuScene::add_surface_levels(const scene::Scene& scene) {
 }
 
 /// For all foliage: of one tree already there are more leaves than a picture shows from across a street.
-void GpuScene::add_foliage_levels(const scene::Scene& scene) {
+void GpuScene::add_foliage_levels(const scene::Scene& scene, const std::vector<const scene::Model*>& models) {
   struct Foliage {
     const Mesh* mesh;
     std::span<const float> openness, max_seen;
@@ -183,9 +191,9 @@ void GpuScene::add_foliage_levels(const scene::Scene& scene) {
   };
   const auto& leaves = scene.data<scene::LeafOpenness>();
   std::vector<Foliage> foliage;
-  for (const auto& [model, first_part] : first_part_of_model_)
+  for (const scene::Model* model : models)
     for (std::size_t p = 0; p < model->parts.size(); ++p) {
-      PartRange& part = parts_[std::size_t(first_part) + p];
+      PartRange& part = parts_[std::size_t(first_part_of_model_.at(model)) + p];
       const bool is_leaf = (materials_[std::size_t(part.material)].features & surface_is_leaf) != 0;
       if (is_leaf && !model->parts[p].deformation)
         foliage.push_back({&model->parts[p].mesh, leaves.of(*model, p), leaves.max_seen(*model, p), &part});
@@ -210,13 +218,12 @@ void GpuScene::add_foliage_levels(const scene::Scene& scene) {
 }
 
 /// Objects of one paint have parts and materials of their own, over the geometry and textures of their model.
-void GpuScene::add_painted_parts(const scene::Scene& scene) {
-  std::map<std::pair<const scene::Model*, const void*>, int> known;  // first part
-  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+void GpuScene::add_painted_parts(const scene::Scene& scene, std::size_t first_object) {
+  for (std::size_t o = first_object; o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];
     if (!object.paint) continue;
     const auto [painted, is_new] =
-        known.try_emplace({object.model.get(), object.paint.get()}, int(parts_.size()));
+        first_painted_part_.try_emplace({object.model.get(), object.paint.get()}, int(parts_.size()));
     const std::size_t first = std::size_t(std::exchange(first_part_[o], painted->second));
     if (!is_new) continue;
     assert(object.paint->size() == object.model->materials.size());
@@ -229,8 +236,8 @@ void GpuScene::add_painted_parts(const scene::Scene& scene) {
 }
 
 /// An object that deforms has parts of its own: those of its model, with other vertices where a mesh deforms.
-void GpuScene::add_deformed_parts(const scene::Scene& scene) {
-  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+void GpuScene::add_deformed_parts(const scene::Scene& scene, std::size_t first_object) {
+  for (std::size_t o = first_object; o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];
     if (object.deformed_meshes.empty()) continue;
     const std::size_t first = std::size_t(std::exchange(first_part_[o], int(parts_.size())));
@@ -244,10 +251,9 @@ void GpuScene::add_deformed_parts(const scene::Scene& scene) {
 }
 
 /// An object that is lit at its vertices has parts and materials of its own, over the geometry of its model.
-void GpuScene::add_lit_parts(const scene::Scene& scene) {
+void GpuScene::add_lit_parts(const scene::Scene& scene, std::size_t first_object) {
   const auto& lit = scene.data<scene::VertexIrradiance>();
-  std::unordered_map<int, int> lit_material;
-  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+  for (std::size_t o = first_object; o < scene.objects.size(); ++o) {
     if (!lit.of(o)) continue;
     const bool has_own = !scene.objects[o].deformed_meshes.empty();
     const std::size_t first = std::size_t(first_part_[o]);
@@ -257,7 +263,7 @@ void GpuScene::add_lit_parts(const scene::Scene& scene) {
       PartRange& part = parts_[std::size_t(first_part_[o]) + p];
       for (const LevelRange& level : levels_of(part))
         if (level.base_vertex != part.base_vertex) part.level_count = 0;  // light is given for its vertices
-      const auto [material, is_new] = lit_material.try_emplace(part.material, int(materials_.size()));
+      const auto [material, is_new] = lit_material_.try_emplace(part.material, int(materials_.size()));
       if (is_new) {
         materials_.push_back(GpuMaterial(materials_[std::size_t(part.material)]));
         materials_.back().features |= surface_has_vertex_light;
@@ -316,38 +322,53 @@ int GpuScene::add_materials(const scene::Model& model, const std::vector<scene::
   return first;
 }
 
-void GpuScene::make_items(const scene::Scene& scene) {
-  const auto& shadows = scene.data<scene::SunShadows>();
-  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+void GpuScene::make_items(const scene::Scene& scene, std::size_t first_object) {
+  follow_shadow_wishes(scene);
+  if (!first_item_.empty()) first_item_.pop_back();
+  for (std::size_t o = first_object; o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];
     first_item_.push_back(std::uint32_t(items_.size()));
     is_moving_.push_back(object.is_dynamic);
     surrounds_.push_back(scene::surrounds_place(scene, object));
-    is_visible_.push_back(object.is_visible);
+    is_visible_.push_back(false);
     is_newcomer_.push_back(false);
     rest_poses_.push_back(scene::rest_pose(*object.model));
     const int first = first_part_[o];
     for (std::size_t p = 0; p < object.model->parts.size(); ++p) {
       const int part = first + int(p);
       const GpuMaterial& material = materials_[std::size_t(parts_[std::size_t(part)].material)];
-      const std::uint32_t flags = shadows.receives(o) ? 0 : no_shadow_received;
+      const std::uint32_t flags = shadows_.receives(o) ? 0 : no_shadow_received;
       const glm::ivec2 light = vertex_light_.first_texels(o, p) - parts_[std::size_t(part)].base_vertex;
       items_.push_back({{{}, std::uint32_t(o) | flags, {}, light},
                         {},
                         part,
                         int(o),
                         object.takes_reflection && material.is_mirror_like,
-                        shadows.casts(o) && parts_[std::size_t(part)].casts_shadow});
+                        shadows_.casts(o) && parts_[std::size_t(part)].casts_shadow});
     }
   }
   first_item_.push_back(std::uint32_t(items_.size()));
   object_bounds_.resize(scene.objects.size()), near_bounds_.resize(scene.objects.size());
   world_from_model_.resize(scene.objects.size());
-  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+  for (std::size_t o = first_object; o < scene.objects.size(); ++o) {
     deform(scene.objects[o], o);
     place(scene, o);
   }
-  find_body_shapes(scene);
+  find_body_shapes(scene, first_object);
+}
+
+/// Which objects cast and receive shadows may change with the groups that a scene names.
+void GpuScene::follow_shadow_wishes(const scene::Scene& scene) {
+  const auto& shadows = scene.data<scene::SunShadows>();
+  if (shadows_.casts_none == shadows.casts_none && shadows_.receives_none == shadows.receives_none) return;
+  for (Item& item : items_) {
+    const std::size_t o = std::size_t(item.object);
+    const bool casts = shadows.casts(o) && parts_[std::size_t(item.part)].casts_shadow;
+    if (casts != item.casts_shadow) fixed_change_.come.push_back(item.bounds);
+    item.casts_shadow = casts;
+    item.record.object = std::uint32_t(o) | (shadows.receives(o) ? 0 : no_shadow_received);
+  }
+  shadows_ = shadows;
 }
 
 void GpuScene::place(const scene::Scene& scene, std::size_t o) {
@@ -373,8 +394,8 @@ bool GpuScene::hides_sky(const PartRange& part) const {
   return part.casts_shadow && materials_[std::size_t(part.material)].pass == Pass::opaque;
 }
 
-void GpuScene::find_body_shapes(const scene::Scene& scene) {
-  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+void GpuScene::find_body_shapes(const scene::Scene& scene, std::size_t first_object) {
+  for (std::size_t o = first_object; o < scene.objects.size(); ++o) {
     const scene::Model& model = *scene.objects[o].model;
     if (!is_moving_[o] || body_shapes_.contains(&model)) continue;
     std::vector<shading::BodyMesh> meshes;
@@ -398,10 +419,12 @@ void GpuScene::add_body(const scene::Object& object, std::size_t o) {
 }
 
 void GpuScene::update(const scene::Scene& scene) {
-  assert(scene.objects.size() == object_bounds_.size());
+  assert(scene.objects.size() >= object_bounds_.size());
   moving_bounds_.clear();
   bodies_.clear();
   fixed_change_ = {};
+  if (scene.objects.size() > object_bounds_.size()) add_objects(scene);
+  follow_shadow_wishes(scene);
   is_newcomer_.assign(scene.objects.size(), 0);
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];
@@ -414,7 +437,6 @@ void GpuScene::update(const scene::Scene& scene) {
       add_body(object, o);
     } else if (was_visible != object.is_visible || world_from_model_[o] != object.world_from_model) {
       if (was_visible) fixed_change_.gone.push_back(object_bounds_[o]);
-      fixed_change_.has_moved |= world_from_model_[o] != object.world_from_model;
       place(scene, o);
       if (object.is_visible) fixed_change_.come.push_back(object_bounds_[o]);
       is_newcomer_[o] = object.is_visible;

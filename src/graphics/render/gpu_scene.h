@@ -3,8 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "base/bounds.h"
@@ -15,6 +18,7 @@
 #include "graphics/render/view.h"
 #include "graphics/shading/body_shade.h"
 #include "scene/data/scene.h"
+#include "scene/data/sun_shadows.h"
 
 namespace parvis::render {
 
@@ -85,7 +89,8 @@ class GpuScene {
  public:
   explicit GpuScene(const scene::Scene& scene);
 
-  /// Copies transforms, poses and visibility from the scene, which must have the same objects as at creation.
+  /// Copies transforms, poses and visibility from the scene, whose objects are those of the last call and new
+  /// ones behind them.
   void update(const scene::Scene& scene);
   /// Static objects that appeared, vanished or moved in the last update.
   const FixedChange& fixed_change() const { return fixed_change_; }
@@ -133,25 +138,31 @@ class GpuScene {
   GLuint index_buffer() const { return geometry_.index_buffer(); }    ///< 32-bit indices
 
  private:
-  void add_models(const scene::Scene& scene);
-  void add_levels(const scene::Scene& scene);
+  void add_objects(const scene::Scene& scene);
+  std::vector<const scene::Model*> add_models(const scene::Scene& scene);
   void add_surface_levels(const scene::Scene& scene);
-  void add_foliage_levels(const scene::Scene& scene);
-  void add_painted_parts(const scene::Scene& scene);
-  void add_deformed_parts(const scene::Scene& scene);
-  void add_lit_parts(const scene::Scene& scene);
+  void add_foliage_levels(const scene::Scene& scene, const std::vector<const scene::Model*>& models);
+  void add_painted_parts(const scene::Scene& scene, std::size_t first_object);
+  void add_deformed_parts(const scene::Scene& scene, std::size_t first_object);
+  void add_lit_parts(const scene::Scene& scene, std::size_t first_object);
   void deform(const scene::Object& object, std::size_t o);
   void upload_textures(const scene::Model& model);
   int add_materials(const scene::Model& model, const std::vector<scene::Material>& materials);
-  void make_items(const scene::Scene& scene);
+  void make_items(const scene::Scene& scene, std::size_t first_object);
+  void follow_shadow_wishes(const scene::Scene& scene);
   void place(const scene::Scene& scene, std::size_t object);
-  void find_body_shapes(const scene::Scene& scene);
+  void find_body_shapes(const scene::Scene& scene, std::size_t first_object);
   void add_body(const scene::Object& object, std::size_t o);
   bool hides_sky(const PartRange& part) const;
   GLuint plain_texture(glm::u8vec4 colour);
 
   std::unordered_map<const scene::Model*, int> first_part_of_model_;
   std::unordered_map<const scene::Model*, std::size_t> first_texture_of_model_;
+  std::unordered_set<const scene::Model*> levelled_;  ///< whose surfaces have their levels
+  std::map<std::pair<const scene::Model*, const void*>, int> first_painted_part_;  ///< of a model in a paint
+  std::unordered_map<int, int>
+      lit_material_;             ///< the same material for objects that are lit at their vertices
+  scene::SunShadows shadows_;    ///< as the items have it
   std::vector<int> first_part_;  ///< of each object, in parts_: its model's, its paint's, or its own
   GpuGeometry geometry_;
   GpuVertexLight vertex_light_;

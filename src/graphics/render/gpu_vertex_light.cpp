@@ -18,18 +18,19 @@ static_assert(scene::max_lit_texels < std::size_t{row_px} * 16384, "OpenGL 4.5 h
 
 void GpuVertexLight::reserve(const scene::Scene& scene) {
   const auto& lit = scene.data<scene::VertexIrradiance>();
-  std::size_t texels = 0;
-  const auto take = [&](std::size_t count) { return int(std::exchange(texels, texels + count)); };
+  const std::size_t known = places_.size();
+  const auto take = [&](std::size_t count) { return int(std::exchange(texels_, texels_ + count)); };
   for (std::size_t o = 0; o < lit.objects.size(); ++o) {
-    if (!lit.of(o)) continue;
+    if (!lit.of(o) || places_.contains(o)) continue;
     for (const scene::LitVertices::PartLight& part : lit.of(o)->parts) {
       const int front = take(part.front.size());
       places_[o].parts.emplace_back(front, part.behind.empty() ? front : take(part.behind.size()));
     }
   }
-  if (places_.empty()) return;
-  assert(texels <= scene::max_lit_texels);
-  const int rows = std::max(int((texels + row_px - 1) / row_px), 1);
+  if (places_.size() == known) return;
+  assert(texels_ <= scene::max_lit_texels);
+  for (auto& [object, place] : places_) place.up = nullptr;
+  const int rows = std::max(int((texels_ + row_px - 1) / row_px), 1);
   texture_ = gl::texture_2d(GL_RGBA32F, row_px, rows);
   glTextureParameteri(texture_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(texture_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);

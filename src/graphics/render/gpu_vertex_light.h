@@ -18,7 +18,8 @@ namespace parvis::render {
 /// One texel per vertex and side of each lit object, at most scene::max_lit_texels.
 class GpuVertexLight {
  public:
-  /// Lays out the texture for the objects that are lit now; `first_texels` answers from then on.
+  /// Lays out the texture for the objects that are lit now, those of the last call as they were;
+  /// `first_texels` answers from then on.
   void reserve(const scene::Scene& scene);
   /// Uploads the light of objects that have another one than at the last call.
   void update(const scene::Scene& scene);
@@ -37,6 +38,7 @@ class GpuVertexLight {
   void write(const std::vector<glm::vec3>& light, int first);
 
   std::unordered_map<std::size_t, Place> places_;  ///< by object
+  std::size_t texels_ = 0;                         ///< that are laid out
   std::vector<glm::vec4> row_;
   gl::Texture texture_;
 };

@@ -18,9 +18,9 @@ constexpr GLsizeiptr block_alignment = 256;  // no OpenGL asks for more
 
 bool has_colour(const View& view) { return view.kind < ViewKind::shadow; }
 
-std::vector<Drawable*> all_of(SceneDrawable& scene, const std::vector<std::unique_ptr<Drawable>>& others) {
+std::vector<Drawable*> all_of(SceneDrawable& scene, const std::vector<Drawables::Made>& others) {
   std::vector<Drawable*> all{&scene};
-  for (const std::unique_ptr<Drawable>& other : others) all.push_back(other.get());
+  for (const Drawables::Made& other : others) all.push_back(other.drawable.get());
   return all;
 }
 
@@ -60,25 +60,28 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const scene::Scene& scene, co
                                                    const MakeLight& make_light) {
   Result<SceneDrawable> drawable = SceneDrawable::create(scene);
   if (!drawable) return drawable.errors();
-  Result<std::vector<std::unique_ptr<Drawable>>> room_drawables = drawables.make(scene);
-  if (!room_drawables) return room_drawables.errors();
+  std::vector<Drawables::Made> room_drawables;
+  if (Status status = drawables.follow(scene, room_drawables); !status) return status.errors();
   Result<std::unique_ptr<LightSource>> light =
-      make_light(scene, fixed_bounds_of(all_of(*drawable, *room_drawables)));
+      make_light(scene, fixed_bounds_of(all_of(*drawable, room_drawables)));
   if (!light) return light.errors();
   Result<PictureTarget> target = PictureTarget::create();
   if (!target) return target.errors();
-  return std::unique_ptr<Renderer>(new Renderer(scene, *std::move(drawable), *std::move(room_drawables),
-                                                *std::move(light), *std::move(target)));
+  return std::unique_ptr<Renderer>(new Renderer(scene, *std::move(drawable), drawables,
+                                                std::move(room_drawables), *std::move(light),
+                                                *std::move(target)));
 }
 
-Renderer::Renderer(const scene::Scene& scene, SceneDrawable drawable,
-                   std::vector<std::unique_ptr<Drawable>> room_drawables, std::unique_ptr<LightSource> light,
+Renderer::Renderer(const scene::Scene& scene, SceneDrawable drawable, Drawables kinds,
+                   std::vector<Drawables::Made> room_drawables, std::unique_ptr<LightSource> light,
                    PictureTarget target)
     : light_(std::move(light)),
       scene_(std::move(drawable)),
       occluders_(scene, scene_.gpu()),
+      kinds_(std::move(kinds)),
       room_drawables_(std::move(room_drawables)),
       drawables_(all_of(scene_, room_drawables_)),
+      object_count_(scene.objects.size()),
       frame_blocks_(1 << 18),
       body_blocks_(1 << 16) {
   targets_.push_back(std::move(target));
@@ -156,6 +159,16 @@ void Renderer::draw_view(const View& view) {
   draw_prepared(view);
 }
 
+/// Nodes of the scene may have come that make the first thing of their kind. Where its drawable cannot be
+/// made, the things are not drawn.
+void Renderer::follow_things(const scene::Scene& scene) {
+  const std::size_t known = room_drawables_.size();
+  if (const Status status = kinds_.follow(scene, room_drawables_); !status)
+    fmt::print(stderr, "{}\n", to_string(status.errors()));
+  for (std::size_t i = known; i < room_drawables_.size(); ++i)
+    drawables_.insert(drawables_.begin() + 1 + std::ptrdiff_t(i), room_drawables_[i].drawable.get());
+}
+
 void Renderer::gather_extents() {
   fixed_bounds_ = {};
   moving_bounds_.clear();
@@ -176,7 +189,10 @@ void Renderer::gather_extents() {
 
 void Renderer::begin(const scene::Scene& scene, const Camera& camera, bool has_moving_shade) {
   ++frames_begun_;
+  follow_things(scene);
   for (Drawable* drawable : drawables_) drawable->update(scene);
+  if (std::exchange(object_count_, scene.objects.size()) != scene.objects.size())
+    occluders_.follow_objects(scene, scene_.gpu());
   gather_extents();
   if (!fixed_change_.empty()) {
     occluders_.find_fixed(scene);

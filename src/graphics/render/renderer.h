@@ -99,11 +99,12 @@ class Renderer {
   }
 
  private:
-  Renderer(const scene::Scene& scene, SceneDrawable drawable,
-           std::vector<std::unique_ptr<Drawable>> room_drawables, std::unique_ptr<LightSource> light,
+  Renderer(const scene::Scene& scene, SceneDrawable drawable, Drawables kinds,
+           std::vector<Drawables::Made> room_drawables, std::unique_ptr<LightSource> light,
            PictureTarget target);
   PictureTarget& target() { return targets_[eye_]; }
   const PictureTarget& target() const { return targets_[eye_]; }
+  void follow_things(const scene::Scene& scene);
   void gather_extents();
   Culling cull(const View& view);
   void begin(const scene::Scene& scene, const Camera& camera, bool has_moving_shade);
@@ -118,8 +119,10 @@ class Renderer {
   int frames_begun_ = 0;
   SceneDrawable scene_;
   SceneOccluders occluders_;
-  std::vector<std::unique_ptr<Drawable>> room_drawables_;
+  Drawables kinds_;
+  std::vector<Drawables::Made> room_drawables_;
   std::vector<Drawable*> drawables_;  ///< all: the scene's, the rooms', and those that were added
+  std::size_t object_count_;          ///< of the scene, in the last frame
 
   // Extents of all drawables in this frame.
   Bounds fixed_bounds_;

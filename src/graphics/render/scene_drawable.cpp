@@ -10,7 +10,7 @@
 namespace parvis::render {
 namespace {
 
-gl::VertexArray make_vertex_array(const GpuScene& gpu) {
+gl::VertexArray make_vertex_array() {
   gl::VertexArray array = gl::VertexArray::create();
   const GLuint name = array.name();
   const auto attribute = [&](GLuint index, GLint size, GLuint offset, GLuint binding) {
@@ -18,17 +18,10 @@ gl::VertexArray make_vertex_array(const GpuScene& gpu) {
     glVertexArrayAttribFormat(name, index, size, GL_FLOAT, GL_FALSE, offset);
     glVertexArrayAttribBinding(name, index, binding);
   };
-  glVertexArrayVertexBuffer(name, 0, gpu.vertex_buffer(), 0, sizeof(GpuGeometry::Vertex));
-  glVertexArrayElementBuffer(name, gpu.index_buffer());
   attribute(0, 3, 0, 0);   // position
   attribute(1, 3, 12, 0);  // normal
   attribute(2, 2, 24, 0);  // uv
   attribute(9, 1, 32, 0);  // openness
-  if (gpu.detail_buffer() != 0) {
-    glVertexArrayVertexBuffer(name, 2, gpu.detail_buffer(), 0, sizeof(GpuGeometry::Detail));
-    attribute(10, 4, 0, 2);   // colour; without the buffer its alpha is 1, OpenGL's default
-    attribute(11, 2, 16, 2);  // second uv
-  }
   for (GLuint row = 0; row < 3; ++row) attribute(3 + row, 4, 16 * row, 1);
   glEnableVertexArrayAttrib(name, 6);
   glVertexArrayAttribIFormat(name, 6, 1, GL_UNSIGNED_INT, 48);  // object
@@ -41,6 +34,21 @@ gl::VertexArray make_vertex_array(const GpuScene& gpu) {
   glVertexArrayAttribBinding(name, 8, 1);
   glVertexArrayBindingDivisor(name, 1, 1);
   return array;
+}
+
+/// The buffers of the geometry, which are others when it has grown.
+void attach_geometry(const gl::VertexArray& array, const GpuScene& gpu) {
+  glVertexArrayVertexBuffer(array.name(), 0, gpu.vertex_buffer(), 0, sizeof(GpuGeometry::Vertex));
+  glVertexArrayElementBuffer(array.name(), gpu.index_buffer());
+  if (gpu.detail_buffer() == 0) return;
+  const auto attribute = [&](GLuint index, GLint size, GLuint offset) {
+    glEnableVertexArrayAttrib(array.name(), index);
+    glVertexArrayAttribFormat(array.name(), index, size, GL_FLOAT, GL_FALSE, offset);
+    glVertexArrayAttribBinding(array.name(), index, 2);
+  };
+  glVertexArrayVertexBuffer(array.name(), 2, gpu.detail_buffer(), 0, sizeof(GpuGeometry::Detail));
+  attribute(10, 4, 0);   // colour; without the buffer its alpha is 1, OpenGL's default
+  attribute(11, 2, 16);  // second uv
 }
 
 // Of a surface that stands beside its place, in pixels.
@@ -79,7 +87,14 @@ Result<SceneDrawable> SceneDrawable::create(const scene::Scene& scene) {
 }
 
 SceneDrawable::SceneDrawable(GpuScene gpu, Programs programs)
-    : gpu_(std::move(gpu)), programs_(std::move(programs)), vertex_array_(make_vertex_array(gpu_)) {}
+    : gpu_(std::move(gpu)), programs_(std::move(programs)), vertex_array_(make_vertex_array()) {
+  attach_geometry(vertex_array_, gpu_);
+}
+
+void SceneDrawable::update(const scene::Scene& scene) {
+  gpu_.update(scene);
+  attach_geometry(vertex_array_, gpu_);
+}
 
 Extents SceneDrawable::extents() const {
   return {gpu_.fixed_bounds(), gpu_.moving_bounds(), gpu_.bodies(), gpu_.object_bounds(),

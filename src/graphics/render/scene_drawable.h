@@ -34,7 +34,7 @@ class SceneDrawable final : public Drawable {
   /// once.
   Status set_reflection(SurfaceShader* shader);
 
-  void update(const scene::Scene& scene) override { gpu_.update(scene); }
+  void update(const scene::Scene& scene) override;
   Extents extents() const override;
   void prepare(const View& view, const Culling& culling) override;
   void draw(const View& view, Pass pass) override;

@@ -18,15 +18,17 @@ void SceneOccluders::find_fixed(const scene::Scene& scene) {
 }
 
 void SceneOccluders::keep_moving_shapes(const scene::Scene& scene, const GpuScene& gpu) {
-  shape_of_part_.assign(gpu.parts().size(), -1);
+  const std::size_t known = shape_of_part_.size();
+  shape_of_part_.resize(gpu.parts().size(), -1);
   std::size_t item = 0;
   for (const scene::Object& object : scene.objects)
     for (const scene::Part& part : object.model->parts) {
-      int& shape = shape_of_part_[std::size_t(gpu.items()[item++].part)];
+      const std::size_t number = std::size_t(gpu.items()[item++].part);
+      int& shape = shape_of_part_[number];
       const scene::Material& material = object.model->materials[std::size_t(part.material)];
       const bool is_rigid = object.deformed_meshes.empty() || !part.deformation;
       if (object.is_dynamic && is_rigid && !part.is_backdrop && material.alpha_mode == scene::Alpha::opaque &&
-          shape < 0)
+          number >= known && shape < 0)
         shape = culler_.add_shape(part.mesh, material.is_double_sided);
     }
 }

@@ -11,6 +11,8 @@ class SceneOccluders {
   SceneOccluders(const scene::Scene& scene, const GpuScene& gpu);
   /// Static things appeared, vanished or moved.
   void find_fixed(const scene::Scene& scene);
+  /// The scene has more objects than before.
+  void follow_objects(const scene::Scene& scene, const GpuScene& gpu) { keep_moving_shapes(scene, gpu); }
   /// Draws the occluders of a view; things of `gpu` as they were updated last.
   void draw(const View& view, const GpuScene& gpu);
   /// Of the view drawn last.

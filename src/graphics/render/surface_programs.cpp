@@ -43,20 +43,34 @@ Result<SurfacePrograms> SurfacePrograms::create(const SurfaceSource& source,
   made.source_.defines.emplace_back("REFLECTION_OVERLAY(radiance, roughness)", source.reflection);
   made.source_.defines.emplace_back("TRANSMISSION_OVERLAY(radiance)", source.transmission);
   for (const GpuMaterial& material : materials) {
-    gl::Defines defines = defines_of(material.features);
-    defines.insert(defines.end(), made.source_.defines.begin(), made.source_.defines.end());
-    defines.insert(defines.end(), source.mesh_defines.begin(), source.mesh_defines.end());
-    if (Status status = link(made.programs_[material.features], source, defines); !status)
-      return status.errors();
+    if (Status status = made.link_of(material.features, false); !status) return status.errors();
     if (!(material.features & surface_has_holes)) continue;
-    defines.emplace_back("ONE_SAMPLE", "");
-    if (Status status = link(made.one_sample_[material.features], source, defines); !status)
-      return status.errors();
+    if (Status status = made.link_of(material.features, true); !status) return status.errors();
   }
   return made;
 }
 
-void SurfacePrograms::set(const char* uniform, int value) const {
+Status SurfacePrograms::link_of(std::uint16_t features, bool discards) const {
+  gl::Program& program = (discards ? one_sample_ : programs_)[features];
+  if (program.name()) return Done{};
+  gl::Defines defines = defines_of(features);
+  defines.insert(defines.end(), source_.defines.begin(), source_.defines.end());
+  defines.insert(defines.end(), source_.mesh_defines.begin(), source_.mesh_defines.end());
+  if (discards) defines.emplace_back("ONE_SAMPLE", "");
+  if (Status status = link(program, source_, defines); !status) return status;
+  for (const auto& [uniform, value] : uniforms_) program.set(uniform.c_str(), value);
+  return Done{};
+}
+
+/// A material has come that has other features than those before it.
+const gl::Program& SurfacePrograms::linked(std::uint16_t features, bool discards) const {
+  if (const Status status = link_of(features, discards); !status)
+    fmt::print(stderr, "{}\n", to_string(status.errors()));
+  return (discards ? one_sample_ : programs_)[features];
+}
+
+void SurfacePrograms::set(const char* uniform, int value) {
+  uniforms_.emplace_back(uniform, value);
   for (const Variants* variants : {&programs_, &one_sample_})
     for (const auto& [features, program] : *variants)
       if (program.name()) program.set(uniform, value);

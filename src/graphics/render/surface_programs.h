@@ -32,14 +32,16 @@ struct SurfaceSource {
 class SurfacePrograms {
  public:
   /// Links a program for each combination of features among `materials`; for materials with holes two: for
-  /// multisampled views and for views with one sample per pixel.
+  /// multisampled views and for views with one sample per pixel. Others are linked when they are asked for.
   static Result<SurfacePrograms> create(const SurfaceSource& source,
                                         const std::vector<GpuMaterial>& materials);
 
-  /// The program of a material that was given to `create`.
+  /// The program of a material.
   const gl::Program& of(const GpuMaterial& material, bool is_multisampled) const {
     const bool discards = (material.features & surface_has_holes) && !is_multisampled;
-    return (discards ? one_sample_ : programs_).at(material.features);
+    const Variants& variants = discards ? one_sample_ : programs_;
+    const auto known = variants.find(material.features);
+    return known != variants.end() ? known->second : linked(material.features, discards);
   }
 
   /// The program of a surface that a room draws itself, for multisampled views; linked on first use. Null,
@@ -47,14 +49,18 @@ class SurfacePrograms {
   const gl::Program* of(const DrawableShader& shader);
 
   /// Sets a uniform of all programs of the scene's materials, as gl::Program::set.
-  void set(const char* uniform, int value) const;
+  void set(const char* uniform, int value);
 
  private:
+  const gl::Program& linked(std::uint16_t features, bool discards) const;
+  Status link_of(std::uint16_t features, bool discards) const;
+
   SurfaceSource source_;
   std::map<std::pair<std::string, std::string>, gl::Program> of_rooms_;  ///< by the room's two files
   using Variants = std::unordered_map<std::uint16_t, gl::Program>;
-  Variants programs_;
-  Variants one_sample_;  ///< of materials with holes, whose other programs need coverage by alpha
+  std::vector<std::pair<std::string, int>> uniforms_;  ///< that were set
+  mutable Variants programs_;
+  mutable Variants one_sample_;  ///< of materials with holes, whose other programs need coverage by alpha
 };
 
 }  // namespace parvis::render

@@ -111,6 +111,7 @@ class TestQuadDrawable final : public Drawable {
       bounds_[i] = bounds;
     }
   }
+  void renumber(int first_thing) override { first_thing_ = first_thing; }
   Extents extents() const override { return {fixed_, moving_, {}, bounds_, &change_}; }
 
   void prepare(const View& view, const Culling& culling) override {

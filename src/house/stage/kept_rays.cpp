@@ -1,6 +1,7 @@
 #include "house/stage/kept_rays.h"
 
 #include <algorithm>
+#include <span>
 
 #include "base/content_hash.h"
 
@@ -13,15 +14,17 @@ std::uint64_t casters(const scene::Scene& scene) {
   return hash.value();
 }
 
-/// Can a hierarchy of one follow the other? Their objects and models are the same, and what mirrors and casts
-/// shadows.
-bool are_alike(const scene::Scene& a, const scene::Scene& b) {
+/// Can a hierarchy of one follow the other? Their objects and models are the same, but for new ones, and what
+/// mirrors and casts shadows.
+bool can_follow(const scene::Scene& a, const scene::Scene& b) {
   const auto is_same = [](const scene::Object& one, const scene::Object& other) {
     return one.model == other.model && one.paint == other.paint &&
            one.takes_reflection == other.takes_reflection && one.is_dynamic == other.is_dynamic &&
            one.deformed_meshes.size() == other.deformed_meshes.size();
   };
-  return std::ranges::equal(a.objects, b.objects, is_same) && casters(a) == casters(b);
+  if (b.objects.size() < a.objects.size()) return false;
+  const auto known = std::span(b.objects).first(a.objects.size());
+  return std::ranges::equal(a.objects, known, is_same) && casters(a) == casters(b);
 }
 
 }  // namespace
@@ -31,13 +34,14 @@ std::optional<KeptRays::Moment> KeptRays::of(const scene::Scene& scene, std::chr
     if (building_.wait_for(patience) != std::future_status::ready) return std::nullopt;
     kept_ = building_.get();
   }
-  if (kept_ && !are_alike(kept_->scene, scene)) kept_.reset();
+  if (kept_ && !can_follow(kept_->scene, scene)) kept_.reset();
   if (!kept_) {
     building_ = std::async(std::launch::async, [source = std::make_shared<const scene::Scene>(scene)] {
       return std::make_unique<Kept>(*source);
     });
     return std::nullopt;
   }
+  kept_->scene.objects.resize(scene.objects.size());  // moved, not copied: meshes stay where they are
   kept_->scene = scene;
   kept_->rays.update(kept_->scene);
   return Moment{&kept_->rays, &kept_->scene};

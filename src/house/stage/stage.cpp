@@ -1,7 +1,5 @@
 #include "house/stage/stage.h"
 
-#include <set>
-
 #include "base/checked.h"
 #include "base/memory_budget.h"
 #include "graphics/gl/context.h"
@@ -108,6 +106,8 @@ Status Stage::set_reflection(const methods::Settings& reflection) {
   end_refinement();  // methods begin frames when they are made
   methods::settings(play_.scene) = shown_reflection_ = reflection;
   renderer_->set_budget(double(reflection.budget_ms));
+  if (play_.scene.objects.size() > renderer_->gpu().object_bounds().size())
+    if (const Result<Camera> camera = play_.camera("")) renderer_->begin_frame(play_.scene, *camera);
   Result<std::unique_ptr<methods::Reflections>> made =
       house().get<methods::Registry>().make(play_.scene, *renderer_);
   if (!made) return made.errors();
@@ -118,7 +118,19 @@ Status Stage::set_reflection(const methods::Settings& reflection) {
         why);
   if (Status status = renderer_->set_reflection(made->get()); !status) return status;
   reflections_ = *std::move(made);
+  has_new_mirrors();  // all are known now
   return Done{};
+}
+
+/// Methods know mirrors by their models: for one that has come with a model of its own another method is
+/// made.
+bool Stage::has_new_mirrors() {
+  bool is_any = false;
+  for (; known_objects_ < play_.scene.objects.size(); ++known_objects_) {
+    const scene::Object& object = play_.scene.objects[known_objects_];
+    if (object.takes_reflection) is_any |= mirrors_.insert(object.model.get()).second;
+  }
+  return is_any;
 }
 
 void Stage::follow_clock(double frame_ms) {
@@ -145,7 +157,7 @@ double Stage::drawn_share() const {
 
 void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn) {
   end_refinement();
-  if (methods::settings(play_.scene) != shown_reflection_)
+  if (has_new_mirrors() || methods::settings(play_.scene) != shown_reflection_)
     if (const Status status = set_reflection(methods::settings(play_.scene)); !status)
       fmt::print(stderr, "{}", to_string(status.errors()));
   width_ = size.x, height_ = size.y;

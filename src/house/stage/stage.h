@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -133,6 +134,7 @@ class Stage {
 
  private:
   void end_refinement();
+  bool has_new_mirrors();
   Stage(Play play, std::unique_ptr<render::Renderer> renderer, ShownRadiance refined);
   void draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn);
 
@@ -140,6 +142,9 @@ class Stage {
   std::unique_ptr<render::Renderer> renderer_;
   std::unique_ptr<methods::Reflections> reflections_;
   methods::Settings shown_reflection_;
+  std::set<const scene::Model*>
+      mirrors_;                    ///< models of objects that take reflections, as the method knows them
+  std::size_t known_objects_ = 0;  ///< of the scene
   gl::PassTimes pass_times_;
   double held_ms_ = 0.0;  ///< 0: no rate is held
   render::PictureScale scale_;

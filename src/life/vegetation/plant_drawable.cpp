@@ -105,6 +105,7 @@ class PlantDrawable final : public render::Drawable {
     return std::unique_ptr<render::Drawable>(std::move(drawable));
   }
 
+  void renumber(int first_thing) override { first_thing_ = first_thing; }
   void update(const scene::Scene& scene) override {
     const std::vector<ScenePlant>& plants = scene_plants(scene);
     const bool is_new_detail = !(detail_ == scene.data<PlantDetail>());  // kept shadow maps show another

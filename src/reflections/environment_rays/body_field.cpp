@@ -60,6 +60,7 @@ vec3 nearest_shares(vec3 p, vec3 a, vec3 b, vec3 c) {
 struct Face {
   vec3 corners[3], normal;
   glm::vec2 uvs[3];
+  vec3 tints[3];  ///< colours of the vertices
   const scene::Material* material;
 
   vec3 at(vec3 shares) const { return shares.x * corners[0] + shares.y * corners[1] + shares.z * corners[2]; }
@@ -78,6 +79,7 @@ std::vector<Face> solid_faces(const scene::Model& model, const std::vector<scene
       face.material = &material;
       for (std::size_t k = 0; k < 3; ++k) {
         face.corners[k] = vec3(to_model * glm::vec4(part.mesh.positions[indices[i + k]], 1.0f));
+        face.tints[k] = part.mesh.colours.empty() ? vec3(1.0f) : vec3(part.mesh.colours[indices[i + k]]);
         if (!part.mesh.uvs.empty()) face.uvs[k] = part.mesh.uvs[indices[i + k]];
       }
       const vec3 normal = cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
@@ -92,15 +94,19 @@ std::vector<Face> solid_faces(const scene::Model& model, const std::vector<scene
 
 vec3 colour_at(const scene::Model& model, const Face& face, vec3 shares) {
   const scene::Material& material = *face.material;
-  if (material.base_colour_texture == scene::no_index) return material.base_colour;
-  const Image8& image = model.textures[std::size_t(material.base_colour_texture)].image;
-  if (image.empty()) return material.base_colour;
+  const vec3 plain =
+      material.base_colour * (shares.x * face.tints[0] + shares.y * face.tints[1] + shares.z * face.tints[2]);
+  if (material.base_colour_texture == scene::no_index) return plain;
+  const scene::Texture& texture = model.textures[std::size_t(material.base_colour_texture)];
+  const Image8& image = texture.image;
+  if (image.empty()) return plain;
   const glm::vec2 uv = shares.x * face.uvs[0] + shares.y * face.uvs[1] + shares.z * face.uvs[2];
   const vec3 in_texture = material.texture_from_mesh_uv * vec3(uv, 1.0f);
-  const glm::vec2 repeated = glm::fract(glm::vec2(in_texture));
+  const glm::vec2 repeated(scene::wrapped(in_texture.x, texture.wrap_u),
+                           scene::wrapped(in_texture.y, texture.wrap_v));
   const std::uint8_t* texel = image.at(std::min(int(repeated.x * float(image.width)), image.width - 1),
                                        std::min(int(repeated.y * float(image.height)), image.height - 1));
-  return material.base_colour * linear_from_srgb8(texel[0], texel[1], texel[2]);
+  return plain * linear_from_srgb8(texel[0], texel[1], texel[2]);
 }
 
 /// The nearest face that a cell has met so far.

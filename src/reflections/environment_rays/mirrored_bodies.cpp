@@ -1,7 +1,7 @@
 #include "reflections/environment_rays/mirrored_bodies.h"
 
 #include <algorithm>
-#include <map>
+#include <utility>
 
 #include "base/parallel.h"
 #include "reflections/methods/bindings.h"
@@ -11,50 +11,80 @@ namespace {
 
 constexpr std::size_t max_fields = 100;  // upon one another in a texture as high as any driver allows
 
-gl::Texture upload(const std::vector<BodyField>& fields) {
+gl::Texture room_for(std::size_t fields) {
   constexpr int columns = mirrored_bodies_shared::field_columns;
   const glm::ivec3 size = BodyField::size();
-  const int rows = (int(std::max(fields.size(), std::size_t{1})) + columns - 1) / columns;
+  const int rows = (int(std::max(fields, std::size_t{1})) + columns - 1) / columns;
   gl::Texture texture = gl::Texture::create(GL_TEXTURE_3D);
   glTextureStorage3D(texture.name(), 1, GL_RGBA8, columns * size.x, size.y, rows * size.z);
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
     glTextureParameteri(texture.name(), wrap, GL_CLAMP_TO_EDGE);
-  for (std::size_t i = 0; i < fields.size(); ++i)
-    if (!fields[i].cells.empty())
-      glTextureSubImage3D(texture.name(), 0, int(i) % columns * size.x, 0, int(i) / columns * size.z, size.x,
-                          size.y, size.z, GL_RGBA, GL_UNSIGNED_BYTE, fields[i].cells.data());
   return texture;
+}
+
+/// The place of a field in the texture.
+glm::ivec3 corner_of(std::size_t field) {
+  constexpr int columns = mirrored_bodies_shared::field_columns;
+  return glm::ivec3(int(field) % columns, 0, int(field) / columns) * BodyField::size();
 }
 
 }  // namespace
 
 MirroredBodies::MirroredBodies(const scene::Scene& scene)
-    : field_of_object_(scene.objects.size(), -1), body_of_object_(scene.objects.size(), -1) {
-  std::map<std::pair<const scene::Model*, const void*>, int> known;  // by model and paint
-  std::vector<const scene::Object*> looks;
-  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    : fields_(room_for(0)), block_(gl::Buffer::create()) {
+  glNamedBufferStorage(block_.name(), sizeof(mirrored_bodies_shared::MirroredBodies), nullptr,
+                       GL_DYNAMIC_STORAGE_BIT);
+  bodies_.reserve(max_bodies), middles_.reserve(max_bodies), objects_.reserve(max_bodies),
+      reflector_of_body_.reserve(max_bodies);
+  add_objects(scene);
+}
+
+void MirroredBodies::follow_objects(const scene::Scene& scene) {
+  if (scene.objects.size() > field_of_object_.size()) add_objects(scene);
+}
+
+void MirroredBodies::add_objects(const scene::Scene& scene) {
+  std::vector<const scene::Object*> looks;  // new ones
+  const std::size_t known = boxes_.size();
+  for (std::size_t o = field_of_object_.size(); o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];
+    field_of_object_.push_back(-1);
     if (!object.is_dynamic || !object.model) continue;
-    const auto [place, is_new] =
-        known.try_emplace({object.model.get(), object.paint.get()}, int(looks.size()));
-    if (is_new) looks.push_back(&object);
-    field_of_object_[o] = place->second;
+    const std::pair<const scene::Model*, const void*> look{object.model.get(), object.paint.get()};
+    if (!field_of_look_.contains(look) && known + looks.size() < max_fields) {
+      field_of_look_.emplace(look, int(known + looks.size()));
+      looks.push_back(&object);
+    }
+    if (const auto field = field_of_look_.find(look);
+        field != field_of_look_.end() &&
+        (std::size_t(field->second) >= known || !boxes_[std::size_t(field->second)].empty()))
+      field_of_object_.back() = field->second;
   }
-  looks.resize(std::min(looks.size(), max_fields));
+  body_of_object_.resize(scene.objects.size(), -1);
+  by_distance_.reserve(scene.objects.size());
+  if (looks.empty()) return;
   std::vector<BodyField> fields(looks.size());
   parallel_for(looks.size(),
                [&](std::size_t i) { fields[i] = body_field(*looks[i]->model, looks[i]->materials()); });
   std::ranges::transform(fields, std::back_inserter(boxes_), &BodyField::box);
   for (int& field : field_of_object_)
-    if (field >= int(boxes_.size()) || (field >= 0 && boxes_[std::size_t(field)].empty())) field = -1;
-  fields_ = upload(fields);
-  block_ = gl::Buffer::create();
-  glNamedBufferStorage(block_.name(), sizeof(mirrored_bodies_shared::MirroredBodies), nullptr,
-                       GL_DYNAMIC_STORAGE_BIT);
-  bodies_.reserve(max_bodies), middles_.reserve(max_bodies), objects_.reserve(max_bodies),
-      by_distance_.reserve(scene.objects.size()), reflector_of_body_.reserve(max_bodies);
+    if (field >= 0 && boxes_[std::size_t(field)].empty()) field = -1;
+
+  const gl::Texture before = std::exchange(fields_, room_for(boxes_.size()));
+  const glm::ivec3 size = BodyField::size();
+  for (std::size_t i = 0; i < known; ++i) {
+    const glm::ivec3 at = corner_of(i);
+    glCopyImageSubData(before.name(), GL_TEXTURE_3D, 0, at.x, at.y, at.z, fields_.name(), GL_TEXTURE_3D, 0,
+                       at.x, at.y, at.z, size.x, size.y, size.z);
+  }
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const glm::ivec3 at = corner_of(known + i);
+    if (!fields[i].cells.empty())
+      glTextureSubImage3D(fields_.name(), 0, at.x, at.y, at.z, size.x, size.y, size.z, GL_RGBA,
+                          GL_UNSIGNED_BYTE, fields[i].cells.data());
+  }
 }
 
 void MirroredBodies::update(const scene::Scene& scene,

@@ -3,6 +3,8 @@
 // which its field lies.
 #pragma once
 
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "graphics/gl/objects.h"
@@ -25,6 +27,8 @@ class MirroredBodies {
   /// Makes the fields of all models that move in the scene, which takes tenths of a second each.
   explicit MirroredBodies(const scene::Scene& scene);
 
+  /// Makes the fields of dynamic models that have come.
+  void follow_objects(const scene::Scene& scene);
   /// Takes over where bodies are: those nearest to the first reflector where there are more than can be
   /// mirrored; `reflectors` holds one at least. What overlays draw in a reflector is left out of what it
   /// mirrors.
@@ -39,11 +43,13 @@ class MirroredBodies {
 
  private:
   using Body = mirrored_bodies_shared::MirroredBody;
+  void add_objects(const scene::Scene& scene);
   void find_neighbours(const std::vector<methods::VisibleReflector>& reflectors);
 
-  std::vector<int> field_of_object_;  ///< below 0: none
-  std::vector<Bounds> boxes_;         ///< of each field, in its model's frame
-  std::vector<int> body_of_object_;   ///< below 0: none now
+  std::map<std::pair<const scene::Model*, const void*>, int> field_of_look_;  ///< by model and paint
+  std::vector<int> field_of_object_;                                          ///< below 0: none
+  std::vector<Bounds> boxes_;        ///< of each field, in its model's frame
+  std::vector<int> body_of_object_;  ///< below 0: none now
   std::vector<std::pair<float, int>> by_distance_;
   std::vector<int> objects_;                                         ///< of each body
   std::vector<const methods::VisibleReflector*> reflector_of_body_;  ///< null: it is not seen

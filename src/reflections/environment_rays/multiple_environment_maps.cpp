@@ -240,6 +240,8 @@ std::span<const methods::VisibleReflector> MultipleEnvironmentMaps::with_smooth_
 void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                           const std::vector<methods::VisibleReflector>& reflectors) {
   prepared_.clear();
+  details_.resize(scene.objects.size(), all_detail);
+  bodies_.follow_objects(scene);
   if (!reflectors.empty()) bodies_.update(scene, reflectors);
   find_missing_maps(renderer, reflectors);
   if (std::exchange(renews_one_, false) &&

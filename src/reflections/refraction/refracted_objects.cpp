@@ -219,6 +219,8 @@ void RefractedObjects::draw_light(const render::View& view, std::size_t i, int p
 
 void RefractedObjects::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                    const std::vector<methods::VisibleReflector>& reflectors) {
+  for (std::size_t o = model_of_object_.size(); o < scene.objects.size(); ++o)
+    model_of_object_.push_back(scene.objects[o].model.get());
   update_below(renderer, scene, reflectors);
   find_glass(renderer, reflectors);
   const render::View view = picture_.begin(renderer, *this);

@@ -164,6 +164,7 @@ void VertexSearch::make_results(int rows) {
 }
 
 glm::ivec2 VertexSearch::add(const render::Item& item, float area_px) {
+  if (std::size_t(item.part) >= of_part_.size()) return {};
   const MeshGrids& grids = of_part_[std::size_t(item.part)];
   auto level = follows_area_ ? grid_level(grids.corner_counts, grids.vertex_count, area_px) : std::nullopt;
   if (!level && is_asked_for_ && !grids.corner_counts.empty()) level = 0;

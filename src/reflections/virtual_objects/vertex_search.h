@@ -58,7 +58,7 @@ class VertexSearch {
   bool follows_area_;               ///< coarser where the image is small
   bool is_asked_for_;               ///< large images, too
   float max_stray_px_;              ///< beyond it, a vertex is searched for
-  std::vector<MeshGrids> of_part_;  ///< of the GPU scene's parts
+  std::vector<MeshGrids> of_part_;  ///< of the GPU scene's parts; those that came later have none
   bool has_any_;
   gl::Texture table_, results_;
   gl::Framebuffer target_;

@@ -133,7 +133,14 @@ VirtualObjects::VirtualObjects(const scene::Scene& scene, ReflectorsByModel refl
       uses_level_of_detail_(methods::settings(scene).uses_level_of_detail),
       shows_all_(shows_all_objects(scene)),
       within_m_(near_object_settings(scene).within_m) {
-  for (const scene::Object& object : scene.objects) {
+  follow_objects(scene);
+}
+
+/// Reflectors among new objects are those of models that are known: for others a method is made
+/// (house/stage).
+void VirtualObjects::follow_objects(const scene::Scene& scene) {
+  for (std::size_t o = model_of_object_.size(); o < scene.objects.size(); ++o) {
+    const scene::Object& object = scene.objects[o];
     model_of_object_.push_back(object.takes_reflection ? object.model.get() : nullptr);
     colour_of_object_.push_back(mirror_colour(object.materials()));
   }
@@ -230,6 +237,7 @@ void VirtualObjects::flag_near_objects() {
 
 void VirtualObjects::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                  const std::vector<methods::VisibleReflector>& reflectors) {
+  follow_objects(scene);
   find_patches(renderer, reflectors);
   below_reflectors_ = reflectors;
   if (shows_all_)

@@ -46,6 +46,7 @@ class VirtualObjects final : public methods::Overlay, public render::VirtualVert
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<methods::VisibleReflector>& reflectors) override;
 
+  void follow_objects(const scene::Scene& scene);
   /// Those that the main view may see.
   void find_patches(const render::Renderer& renderer,
                     const std::vector<methods::VisibleReflector>& reflectors);

@@ -21,10 +21,11 @@ void build_nothing(const scene::Node&, scene::SceneBuilder&) {}
 void check_times(const scene::Node& node, const char* parts, scene::SceneBuilder& builder) {
   if (node.children.empty())
     return builder.fail(error_at(node.where, "the {} has no {}; give it some", node.schema->type, parts));
-  for (std::size_t i = 1; i < node.children.size(); ++i)
-    if (node.children[i].number("time_s") <= node.children[i - 1].number("time_s"))
-      builder.fail(error_at(node.children[i].where_of("time_s"), "time_s={} is not later than the {} before",
-                            node.children[i].number("time_s"), node.children[i].schema->type));
+  for (auto before = node.children.begin(), part = std::next(before); part != node.children.end();
+       before = part++)
+    if (part->number("time_s") <= before->number("time_s"))
+      builder.fail(error_at(part->where_of("time_s"), "time_s={} is not later than the {} before",
+                            part->number("time_s"), part->schema->type));
 }
 
 void check_path(const scene::Node& node, scene::SceneBuilder& builder) {

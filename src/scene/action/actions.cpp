@@ -39,6 +39,7 @@ Camera camera_of(const Keyframe& key, const Camera& lens) {
 
 void Actions::begin(Scene& scene, SharedByProcesses& shared) {
   shared_ = &shared;
+  edits_ = live().edits();
   for (const Node& node : live().nodes()) read(node);
   for (const Motion& motion : motions_)
     for (const int object : live().objects_of(*motion.target))
@@ -74,11 +75,11 @@ void Actions::read(const Node& node) {
   if (type == "keys") {
     append(on_press_, triggers(node, "onPress"));
     append(on_release_, triggers(node, "onRelease"));
-  } else if (type == "timer") {
+  } else if (type == "timer" && running_.insert(&node).second) {
     timers_.push_back({&node, Clock(node.number("period_s")), triggers(node, "onTime")});
-  } else if (type == "path") {
+  } else if (type == "path" && running_.insert(&node).second) {
     read_motion(node);
-  } else if (type == "tour") {
+  } else if (type == "tour" && running_.insert(&node).second) {
     tours_.push_back({&node, Clock(period_of(node)), node.flag("smooth")});
   } else if (type == "proximity") {
     for (const bool is_entry : {true, false})
@@ -86,6 +87,22 @@ void Actions::read(const Node& node) {
         watches_.push_back({&node, std::move(trigger), is_entry, false});
   }
   for (const Node& child : node.children) read(child);
+}
+
+/// Nodes have come or gone. What runs goes on.
+void Actions::follow_nodes() {
+  if (std::exchange(edits_, live().edits()) == live().edits()) return;
+  const auto is_gone = [this](const auto& thing) { return !live().holds(*thing.node); };
+  std::erase_if(timers_, is_gone), std::erase_if(tours_, is_gone), std::erase_if(motions_, is_gone);
+  std::erase_if(running_, [this](const Node* node) { return !live().holds(*node); });
+  on_press_.clear(), on_release_.clear();
+  const std::vector<Watch> watches = std::exchange(watches_, {});
+  for (const Node& node : live().nodes()) read(node);
+  for (Watch& watch : watches_)
+    for (const Watch& before : watches)
+      if (before.node == watch.node && before.is_entry == watch.is_entry &&
+          before.trigger.source == watch.trigger.source)
+        watch.is_inside = before.is_inside;
 }
 
 void Actions::read_motion(const Node& node) {
@@ -228,6 +245,7 @@ void Actions::send_keys() {
 }
 
 void Actions::step(const Scene&) {
+  follow_nodes();
   send_keys();
   const auto advance_all = [this](auto& things) {
     for (auto& thing : things) {
@@ -257,7 +275,9 @@ std::optional<Camera> Actions::camera(const Scene& scene) const {
   for (const Tour& tour : tours_)
     if (is_running(*tour.node)) return view_of(tour, scene);
   if (camera_.empty()) return std::nullopt;
-  const Result<Camera> camera = scene.camera_now(*scene.find_camera(camera_));
+  const scene::NamedCamera* named = scene.find_camera(camera_);
+  if (!named) return std::nullopt;  // it has been removed
+  const Result<Camera> camera = scene.camera_now(*named);
   return camera ? std::optional(*camera) : std::nullopt;
 }
 

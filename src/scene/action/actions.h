@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -76,6 +77,7 @@ class Actions final : public Process {
   };
 
   void change_key(const std::string& key, double in_s, bool is_pressed);
+  void follow_nodes();
   void read(const scene::Node& node);
   void read_motion(const scene::Node& node);
   std::vector<Trigger> triggers(const scene::Node& node, const std::string& event) const;
@@ -96,6 +98,8 @@ class Actions final : public Process {
   const scene::LiveScene& live() const { return shared_->live; }
 
   SharedByProcesses* shared_ = nullptr;
+  int edits_ = 0;                         ///< of the nodes, that are taken in
+  std::set<const scene::Node*> running_;  ///< timers, paths and tours that have been read
   std::vector<Trigger> on_press_, on_release_;
   std::vector<Timer> timers_;
   std::vector<Motion> motions_;

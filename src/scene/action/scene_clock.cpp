@@ -51,6 +51,7 @@ void SceneClock::settle(scene::Scene& scene) {
 
 void SceneClock::deliver(scene::Scene& scene, const Delivery& delivery) {
   const scene::Node& node = *delivery.target;
+  if (!shared_->live.holds(node)) return;  // it has been removed since
   for (Entry& entry : entries_)
     if (entry.process->receive(scene, node, delivery.message)) return;
   if (shared_->live.receive(node, delivery.message)) return;

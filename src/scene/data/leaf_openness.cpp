@@ -101,7 +101,8 @@ std::span<const float> LeafOpenness::max_seen(const Model& model, std::size_t pa
 }
 
 void find_leaf_openness(Scene& scene) {
-  LeafOpenness found;
+  LeafOpenness found = scene.data<LeafOpenness>();
+  const std::size_t known = found.models.size();
   for (const Object& object : scene.objects) {
     const Model& model = *object.model;
     if (found.models.contains(&model)) continue;
@@ -120,7 +121,7 @@ void find_leaf_openness(Scene& scene) {
     }
     found.models.emplace(&model, std::make_shared<const LeafOpenness::OfModel>(std::move(of_model)));
   }
-  if (!found.models.empty()) scene.data<LeafOpenness>() = std::move(found);
+  if (found.models.size() > known) scene.data<LeafOpenness>() = std::move(found);
 }
 
 }  // namespace parvis::scene

@@ -39,7 +39,7 @@ struct LeafOpenness {
   void hash(ContentHash& hash) const { hash.add(models.size()); }
 };
 
-/// Finds it for all models of a scene.
+/// Finds it for all models of a scene of which it is not known.
 void find_leaf_openness(Scene& scene);
 
 }  // namespace parvis::scene

@@ -7,6 +7,8 @@
 #include <concepts>
 #include <map>
 #include <memory>
+#include <numeric>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -50,6 +52,9 @@ struct RoomData {
   virtual std::unique_ptr<RoomData> take_made_by(const NodeRange& nodes) = 0;
   /// Puts back what `take_made_by` has removed from a value of the same type.
   virtual void put_back(RoomData& taken) = 0;
+  /// Nodes have other numbers now: the node of number n has `numbers[n]`. Items follow the order of their
+  /// nodes.
+  virtual void renumber(std::span<const int> numbers) = 0;
 };
 
 /// A type of which nodes make any number of items in a scene: as SceneData, with a hash of one item.
@@ -87,6 +92,21 @@ struct ItemsOf {
     makers.erase(makers.begin() + first, makers.begin() + last);
     return taken;
   }
+
+  /// See RoomData::renumber. Makers below 0, and those that `numbers` does not know, keep their number.
+  void renumber(std::span<const int> numbers) {
+    for (int& maker : makers)
+      if (maker >= 0 && std::size_t(maker) < numbers.size()) maker = numbers[std::size_t(maker)];
+    if (std::ranges::is_sorted(makers)) return;
+    std::vector<std::size_t> order(makers.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return makers[i]; });
+    ItemsOf sorted;
+    sorted.items.reserve(order.size()), sorted.makers.reserve(order.size());
+    for (const std::size_t i : order)
+      sorted.items.push_back(std::move(items[i])), sorted.makers.push_back(makers[i]);
+    *this = std::move(sorted);
+  }
 };
 
 /// True for ItemsOf.
@@ -122,6 +142,9 @@ struct RoomDataOf final : RoomData {
       for (std::size_t i = 0; i < others.items.size(); ++i)
         value.add(std::move(others.items[i]), others.makers[i]);
     }
+  }
+  void renumber([[maybe_unused]] std::span<const int> numbers) override {
+    if constexpr (requires { value.renumber(numbers); }) value.renumber(numbers);
   }
 };
 
@@ -179,6 +202,10 @@ class RoomDataSet {
   /// Puts them back: they could not be rebuilt.
   void put_back(RoomDataSet taken) {
     for (auto& [name, items] : taken.values_) values_.at(name)->put_back(*items);
+  }
+  /// Nodes have other numbers now; see RoomData::renumber.
+  void renumber(std::span<const int> numbers) {
+    for (auto& [name, value] : values_) value->renumber(numbers);
   }
 
  private:

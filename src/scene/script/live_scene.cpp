@@ -7,6 +7,7 @@
 
 #include "base/known_names.h"
 #include "base/progress.h"
+#include "scene/data/leaf_openness.h"
 #include "scene/script/spelling.h"
 
 namespace parvis::scene {
@@ -109,6 +110,11 @@ void LiveScene::set(const Node& node, const std::string& attribute, AttributeVal
   });
   settings_.push_back({&node, attribute, value});
   give(change(node), attribute, std::move(value));
+}
+
+void LiveScene::set_all(const Node& node, std::vector<NodeAttribute> attributes) {
+  std::erase_if(settings_, [&](const Setting& earlier) { return earlier.node == &node; });
+  change(node).attributes = std::move(attributes);
 }
 
 const Node& LiveScene::unique_node(const std::string& type) {
@@ -322,13 +328,22 @@ Errors LiveScene::build_again(Scene& scene, const Node& node) {
     return errors;
   }
   for (auto& [inside, frame] : built.frames) script_.frames[inside] = frame;
+  const std::size_t objects_before = scene.objects.size();
   put_objects(scene, std::move(built_objects), built.object_makers, node);
   put_cameras(scene, built_cameras, built.camera_makers);
+  follow_objects(scene, objects_before);
   return {};
 }
 
-/// Each object takes the place of one that the same node made of the same model before, or a new one; places
-/// that are left over are hidden.
+/// What is kept by model, or was found out about all objects, follows new ones.
+void LiveScene::follow_objects(Scene& scene, std::size_t objects_before) {
+  if (scene.objects.size() == objects_before) return;
+  find_leaf_openness(scene);
+  for (const FollowStep& step : script_.registry->follow_steps()) step(*this, scene);
+}
+
+/// Each object takes the place of one that the same node made of the same model before, or that a removed
+/// node beside it left, or a new one; places that are left over are hidden.
 void LiveScene::put_objects(Scene& scene, std::vector<Object> built, const std::vector<const Node*>& makers,
                             const Node& node) {
   std::set<int> free;
@@ -341,24 +356,36 @@ void LiveScene::put_objects(Scene& scene, std::vector<Object> built, const std::
       scene.objects[std::size_t(index)].is_visible = is_visible;
     }
   });
+  std::set<int>& spare = spare_[parent_of(node)];
   for (std::size_t i = 0; i < built.size(); ++i) {
-    std::vector<int>& places = objects_[makers[i]];
-    const auto place = std::find_if(places.begin(), places.end(), [&](int index) {
+    const auto fits = [&](int index) {
       const Object& object = scene.objects[std::size_t(index)];
       const bool both_play = (object.played.animation == no_index) == (built[i].played.animation == no_index);
-      return free.count(index) != 0 && object.model == built[i].model && object.paint == built[i].paint &&
-             both_play;
+      return object.model == built[i].model && object.paint == built[i].paint && both_play;
+    };
+    std::vector<int>& places = objects_[makers[i]];
+    const auto place =
+        std::ranges::find_if(places, [&](int index) { return free.contains(index) && fits(index); });
+    const auto left = place != places.end() ? spare.end() : std::ranges::find_if(spare, [&](int index) {
+      const Object& object = scene.objects[std::size_t(index)];
+      return fits(index) && object.is_dynamic == built[i].is_dynamic &&
+             object.takes_reflection == built[i].takes_reflection;
     });
-    if (place == places.end()) {
+    if (place == places.end() && left == spare.end()) {
       places.push_back(int(scene.objects.size()));
       scene.objects.push_back(std::move(built[i]));
-    } else {
-      Object& object = scene.objects[std::size_t(*place)];
-      object.name = std::move(built[i].name);
-      object.world_from_model = built[i].world_from_model;
-      object.played = built[i].played;
-      object.is_visible = built[i].is_visible;
-      free.erase(*place);
+      continue;
+    }
+    const int index = place != places.end() ? *place : *left;
+    Object& object = scene.objects[std::size_t(index)];
+    object.name = std::move(built[i].name);
+    object.world_from_model = built[i].world_from_model;
+    object.played = built[i].played;
+    object.is_visible = built[i].is_visible;
+    free.erase(index);
+    if (place == places.end()) {
+      places.push_back(index);
+      spare.erase(left);
     }
   }
 }

@@ -246,7 +246,7 @@ TEST_F(LiveSceneTest, AScenarioPaintsAModelAgain) {
 
 TEST_F(LiveSceneTest, AKindOfVehicleStaysAsItIs) {
   load("road(path=\"0 0, 100 0\")\ntraffic(vehicles=0) { model(file=\"small.glb\") }\n");
-  const Node& kind = live_.find("%traffic")->children[0];
+  const Node& kind = live_.find("%traffic")->children.front();
   live_.set(kind, "scale", 2.0);
   const Errors errors = live_.refresh(scene_);
   ASSERT_EQ(errors.size(), 1u);

@@ -60,7 +60,7 @@ std::string written(const NodeAttribute& attribute) {
   return attribute.text.empty() ? written_value(*attribute.schema, attribute.value) : attribute.text;
 }
 
-const Node* find_node(const std::vector<Node>& nodes, const std::string& name) {
+const Node* find_node(const Nodes& nodes, const std::string& name) {
   for (const Node& node : nodes) {
     const bool is_named = node.schema->find("name") && node.gives("name") && node.text("name") == name;
     if (is_named || (node.schema->is_unique && name == "%" + node.schema->type)) return &node;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,13 +22,18 @@ struct NodeAttribute {
   FileLocation where;
 };
 
+struct Node;
+/// Nodes side by side, in the order of the script. Each stays at its address while others come, go or change
+/// their order.
+using Nodes = std::list<Node>;
+
 /// A checked node. The getters take an attribute name of the node's schema and assert its type; if the script
 /// does not give the attribute, they return its default.
 struct Node {
   const NodeSchema* schema = nullptr;
   FileLocation where;
   std::vector<NodeAttribute> attributes;  ///< in the order written, repeats included
-  std::vector<Node> children;             ///< included files put their nodes in place
+  Nodes children;                         ///< included files put their nodes in place
   std::vector<NodeAttribute> overrides;   ///< of the node that `schema->takes_attributes_of` names
 
   /// Sets an attribute to a value of its type.
@@ -60,7 +66,7 @@ std::string written(const NodeAttribute& attribute);
 
 /// The node called `name` among `nodes` and those inside them, or null. "%TYPE" is the one node of a unique
 /// type.
-const Node* find_node(const std::vector<Node>& nodes, const std::string& name);
+const Node* find_node(const Nodes& nodes, const std::string& name);
 
 /// What the node and its children say, without names and places: equal texts build equal models.
 std::string signature(const Node& node);

@@ -12,8 +12,10 @@
 
 namespace parvis::scene {
 
+class LiveScene;
 class SceneBuilder;
 struct Model;
+struct Scene;
 
 /// Builds what a node describes into the scene. Bad data is reported by builder.fail() or builder.warn().
 using BuildNode = std::function<void(const Node& node, SceneBuilder& builder)>;
@@ -24,6 +26,10 @@ using ChangeModel = std::function<void(const Node& node, Model& model, SceneBuil
 /// A step after all nodes of a scene are built, for example lanes from roads. Bad data is reported by
 /// builder.fail().
 using FinishStep = std::function<void(SceneBuilder& builder)>;
+
+/// A step after nodes of a running scene have come, gone or changed place, for what was found out about all
+/// of them when the scene was loaded.
+using FollowStep = std::function<void(const LiveScene& live, Scene& scene)>;
 
 /// A node type: it builds something, or changes the `model` that encloses it, or is a part that its parent
 /// reads.
@@ -61,6 +67,10 @@ class NodeRegistry {
   void add_rebuild_step(FinishStep step) { rebuild_steps_.push_back(std::move(step)); }
   /// In the order in which they run.
   const std::vector<FinishStep>& rebuild_steps() const { return rebuild_steps_; }
+  /// Adds a step that runs whenever a running scene has other nodes, or more objects, than before.
+  void add_follow_step(FollowStep step) { follow_steps_.push_back(std::move(step)); }
+  /// In the order in which they run.
+  const std::vector<FollowStep>& follow_steps() const { return follow_steps_; }
 
   const NodeType* find(const std::string& type) const;  ///< null if there is no such type
   /// All types in the order in which they were added: related types stand together.
@@ -72,6 +82,7 @@ class NodeRegistry {
  private:
   std::deque<NodeType> types_;
   std::vector<FinishStep> finish_steps_, rebuild_steps_;
+  std::vector<FollowStep> follow_steps_;
 };
 
 }  // namespace parvis::scene

@@ -48,8 +48,7 @@ NodeSchema override_schema() {
 }
 
 /// What a scene has once would be there in all scenarios.
-void refuse_what_stands_once(const std::vector<Node>& nodes, const std::string& scenario,
-                             SceneBuilder& builder) {
+void refuse_what_stands_once(const Nodes& nodes, const std::string& scenario, SceneBuilder& builder) {
   for (const Node& node : nodes) {
     const std::string& type = node.schema->type;
     if (node.schema->is_laid_out_once)

@@ -63,12 +63,16 @@ void SceneBuilder::build_one(const Node& node) {
   node_ = outer, node_number_ = outer_number;
 }
 
-void SceneBuilder::build(const std::vector<Node>& nodes, const glm::mat4& parent_from_nodes,
-                         bool is_visible) {
+void SceneBuilder::build(const Nodes& nodes, const glm::mat4& parent_from_nodes, bool is_visible) {
   const NodeFrame outer = frame_;
   frame_.world_from_nodes = outer.world_from_nodes * parent_from_nodes;
   frame_.is_visible = outer.is_visible && is_visible;
-  for (const Node& node : nodes) build_one(node);
+  for (const Node& node : nodes) {
+    if (wanted_ && !wanted_->contains(&node)) continue;
+    const auto* wanted = std::exchange(wanted_, nullptr);  // what stands in it is wanted, too
+    build_one(node);
+    wanted_ = wanted;
+  }
   frame_ = outer;
 }
 
@@ -76,6 +80,20 @@ void SceneBuilder::build_again(const Node& node, const std::unordered_map<const 
   known_frames_ = &frames;
   frame_ = frames.at(&node);
   build_one(node);
+  for (const FinishStep& step : registry_.rebuild_steps()) step(*this);
+}
+
+void SceneBuilder::build_inside(const Node* parent, const Nodes& top, const std::set<const Node*>& wanted,
+                                const std::unordered_map<const Node*, NodeFrame>& frames) {
+  known_frames_ = &frames;
+  wanted_ = &wanted;
+  if (parent) {
+    frame_ = frames.at(parent);
+    build_one(*parent);
+  } else {
+    build(top);
+  }
+  wanted_ = nullptr;
   for (const FinishStep& step : registry_.rebuild_steps()) step(*this);
 }
 

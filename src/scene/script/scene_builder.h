@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -31,7 +32,7 @@ using SharedModels = std::map<std::string, std::shared_ptr<const Model>>;
 /// addresses.
 struct Script {
   const NodeRegistry* registry = nullptr;  ///< must outlive it
-  std::vector<Node> nodes;
+  Nodes nodes;
   std::unordered_map<const Node*, NodeFrame> frames;  ///< in which each node stands
   std::vector<const Node*> object_makers,
       camera_makers;  ///< the node that made each object and camera, or null
@@ -82,12 +83,17 @@ class SceneBuilder {
   void add_for(int maker, std::vector<Object> objects);
 
   /// Builds nodes inside the current frame; hidden ones are built, too.
-  void build(const std::vector<Node>& nodes, const glm::mat4& parent_from_nodes = glm::mat4(1.0f),
+  void build(const Nodes& nodes, const glm::mat4& parent_from_nodes = glm::mat4(1.0f),
              bool is_visible = true);
   /// Rebuilds one node in its former frame and runs the rebuild steps; types that are laid out once are
   /// skipped. `frames` holds the frame of each node, for those inside it. The scene must hold no other
   /// objects and cameras.
   void build_again(const Node& node, const std::unordered_map<const Node*, NodeFrame>& frames);
+  /// Builds, of the nodes of a running scene, those that stand in `parent` (null: at the top level, among
+  /// `top`) and are among `wanted`, and runs the rebuild steps. `frames` holds their numbers and the frame of
+  /// the parent, which makes its own things once more.
+  void build_inside(const Node* parent, const Nodes& top, const std::set<const Node*>& wanted,
+                    const std::unordered_map<const Node*, NodeFrame>& frames);
 
   /// Applies a node that stands inside a `model` to that model.
   void change(Model& model, const Node& node) {
@@ -157,6 +163,7 @@ class SceneBuilder {
   SharedModels models_;
   mutable Makers named_;
   const std::unordered_map<const Node*, NodeFrame>* known_frames_ = nullptr;  ///< of a scene that is rebuilt
+  const std::set<const Node*>* wanted_ = nullptr;  ///< of the nodes beside each other; null: all
   Errors errors_, warnings_;
 };
 

@@ -6,8 +6,8 @@
 namespace parvis::scene {
 namespace {
 
-Result<std::vector<Node>> checked_nodes(const std::filesystem::path& script, const NodeRegistry& registry,
-                                        std::span<const std::filesystem::path> data_folders) {
+Result<Nodes> checked_nodes(const std::filesystem::path& script, const NodeRegistry& registry,
+                            std::span<const std::filesystem::path> data_folders) {
   const Roots roots(script.parent_path(), {data_folders.begin(), data_folders.end()});
   return check_script(script, registry, roots);
 }
@@ -16,7 +16,7 @@ Result<std::vector<Node>> checked_nodes(const std::filesystem::path& script, con
 
 Result<LoadedScene> load_scene(const std::filesystem::path& script, const NodeRegistry& registry,
                                std::span<const std::filesystem::path> data_folders) {
-  Result<std::vector<Node>> nodes = checked_nodes(script, registry, data_folders);
+  Result<Nodes> nodes = checked_nodes(script, registry, data_folders);
   if (!nodes) return nodes.errors();
   SceneBuilder builder(registry);
   builder.build(*nodes);
@@ -29,7 +29,7 @@ Result<LoadedScene> load_scene(const std::filesystem::path& script, const NodeRe
 
 Status check_scene(const std::filesystem::path& script, const NodeRegistry& registry,
                    std::span<const std::filesystem::path> data_folders) {
-  const Result<std::vector<Node>> nodes = checked_nodes(script, registry, data_folders);
+  const Result<Nodes> nodes = checked_nodes(script, registry, data_folders);
   if (!nodes) return nodes.errors();
   return Done{};
 }

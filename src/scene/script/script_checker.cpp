@@ -17,8 +17,8 @@ class Checker {
  public:
   Checker(const NodeRegistry& registry, const Roots& roots) : registry_(registry), roots_(roots) {}
 
-  Result<std::vector<Node>> scene(const fs::path& script) {
-    std::vector<Node> nodes = file(script, top_level, {script.string()});
+  Result<Nodes> scene(const fs::path& script) {
+    Nodes nodes = file(script, top_level, {script.string()});
     add_implied(nodes);
     if (!is_incomplete_)
       resolve_names(nodes, names_, roots_, [this](Error error) { fail(std::move(error)); });
@@ -26,17 +26,30 @@ class Checker {
     return nodes;
   }
 
+  Result<Nodes> piece(std::string_view text, const std::string& file, const std::string& parent,
+                      const Nodes& others) {
+    know(others);
+    const Result<std::vector<ScriptNode>> written = parse_script(text, file);
+    if (!written) return written.errors();
+    Nodes made = nodes(*written, file, parent);
+    if (!is_incomplete_)
+      resolve_names(
+          made, names_, roots_, [this](Error error) { fail(std::move(error)); }, others);
+    if (!errors_.empty()) return std::move(errors_);
+    return made;
+  }
+
  private:
-  std::vector<Node> file(const fs::path& script, const std::string& parent, const FileLocation& asked_at);
-  std::vector<Node> nodes(const std::vector<ScriptNode>& written, const std::string& file,
-                          const std::string& parent);
+  void know(const Nodes& others);
+  Nodes file(const fs::path& script, const std::string& parent, const FileLocation& asked_at);
+  Nodes nodes(const std::vector<ScriptNode>& written, const std::string& file, const std::string& parent);
   Node node(const ScriptNode& written, const NodeType& type, const std::string& file);
   void attribute(Node& node, const ScriptAttribute& written, const std::string& file);
   void check_place(const ScriptNode& written, const NodeSchema& schema, const std::string& file,
                    const std::string& parent);
   void check_unique(const std::string& type, const FileLocation& where);
-  void add_implied(std::vector<Node>& nodes);
-  std::vector<Node> included(const Node& include, const std::string& parent);
+  void add_implied(Nodes& nodes);
+  Nodes included(const Node& include, const std::string& parent);
   void note_name(const std::string& name, const FileLocation& where);
 
   void fail(Error error) {
@@ -56,8 +69,7 @@ class Checker {
   bool is_incomplete_ = false;  ///< a file could not be read: names may be missing
 };
 
-std::vector<Node> Checker::file(const fs::path& script, const std::string& parent,
-                                const FileLocation& asked_at) {
+Nodes Checker::file(const fs::path& script, const std::string& parent, const FileLocation& asked_at) {
   std::error_code code;
   const std::uintmax_t size = fs::is_regular_file(script, code) ? fs::file_size(script, code) : 0;
   if (size > max_script_bytes) {
@@ -65,7 +77,7 @@ std::vector<Node> Checker::file(const fs::path& script, const std::string& paren
                   script.string(), max_script_bytes >> 20));
     return {};
   }
-  if (byte_count_ > max_included_bytes) return is_incomplete_ = true, std::vector<Node>();  // reported before
+  if (byte_count_ > max_included_bytes) return is_incomplete_ = true, Nodes();  // reported before
   byte_count_ += std::size_t(size);
   if (byte_count_ > max_included_bytes) {
     is_incomplete_ = true;
@@ -75,19 +87,19 @@ std::vector<Node> Checker::file(const fs::path& script, const std::string& paren
     return {};
   }
   const Result<std::string> text = read_file(script);
-  if (!text) return is_incomplete_ = true, fail(text.errors()), std::vector<Node>();
+  if (!text) return is_incomplete_ = true, fail(text.errors()), Nodes();
   const Result<std::vector<ScriptNode>> written = parse_script(*text, script.string());
-  if (!written) return is_incomplete_ = true, fail(written.errors()), std::vector<Node>();
+  if (!written) return is_incomplete_ = true, fail(written.errors()), Nodes();
 
   open_files_.push_back(script);
-  std::vector<Node> result = nodes(*written, script.string(), parent);
+  Nodes result = nodes(*written, script.string(), parent);
   open_files_.pop_back();
   return result;
 }
 
-std::vector<Node> Checker::nodes(const std::vector<ScriptNode>& written, const std::string& file,
-                                 const std::string& parent) {
-  std::vector<Node> result;
+Nodes Checker::nodes(const std::vector<ScriptNode>& written, const std::string& file,
+                     const std::string& parent) {
+  Nodes result;
   for (const ScriptNode& child : written) {
     if (errors_.size() >= max_script_errors) break;
     const FileLocation where{file, child.place.line, child.place.column};
@@ -108,13 +120,25 @@ std::vector<Node> Checker::nodes(const std::vector<ScriptNode>& written, const s
     Node checked = node(child, *type, file);
     checked.children = nodes(child.children, file, type->schema.type);
     if (child.type == include_type) {
-      std::vector<Node> included_nodes = included(checked, parent);
+      Nodes included_nodes = included(checked, parent);
       std::move(included_nodes.begin(), included_nodes.end(), std::back_inserter(result));
     } else {
       result.push_back(std::move(checked));
     }
   }
   return result;
+}
+
+/// Names that are taken.
+void Checker::know(const Nodes& others) {
+  for (const Node& node : others) {
+    ++node_count_;
+    if (node.schema->is_unique) unique_nodes_.emplace(node.schema->type, node.where);
+    if (node.schema->find("name") && node.gives("name")) names_.given.emplace(node.text("name"), node.where);
+    if (node.schema->names_made)
+      for (const std::string& name : node.schema->names_made(node)) names_.given.emplace(name, node.where);
+    know(node.children);
+  }
 }
 
 void Checker::check_place(const ScriptNode& written, const NodeSchema& schema, const std::string& file,
@@ -191,8 +215,7 @@ void Checker::note_name(const std::string& name, const FileLocation& where) {
 }
 
 /// Where something is said of a node by one of its names; null: nowhere.
-const FileLocation* place_of_reference(const std::vector<Node>& nodes,
-                                       const std::array<std::string, 2>& names) {
+const FileLocation* place_of_reference(const Nodes& nodes, const std::array<std::string, 2>& names) {
   const auto is_among = [&](const std::string& name) {
     return std::ranges::find(names, name) != names.end();
   };
@@ -209,7 +232,7 @@ const FileLocation* place_of_reference(const std::vector<Node>& nodes,
 }
 
 /// Nodes that every scene has, where the script speaks of them and does not write them.
-void Checker::add_implied(std::vector<Node>& nodes) {
+void Checker::add_implied(Nodes& nodes) {
   for (const NodeType& type : registry_.types()) {
     const NodeSchema& schema = type.schema;
     if (!schema.is_implied || unique_nodes_.contains(schema.type)) continue;
@@ -222,7 +245,7 @@ void Checker::add_implied(std::vector<Node>& nodes) {
 }
 
 /// The nodes of the file that `include` names: they stand in its place.
-std::vector<Node> Checker::included(const Node& include, const std::string& parent) {
+Nodes Checker::included(const Node& include, const std::string& parent) {
   if (!include.gives("file")) return {};
   const fs::path script = include.file("file");
   const FileLocation& where = include.where_of("file");
@@ -244,11 +267,15 @@ std::vector<Node> Checker::included(const Node& include, const std::string& pare
 
 }  // namespace
 
-Result<std::vector<Node>> check_script(const fs::path& script, const NodeRegistry& registry,
-                                       const Roots& roots) {
+Result<Nodes> check_script(const fs::path& script, const NodeRegistry& registry, const Roots& roots) {
   std::error_code code;
   const fs::path canonical = fs::weakly_canonical(script, code);
   return Checker(registry, roots).scene(code ? script : canonical);
+}
+
+Result<Nodes> check_piece(std::string_view text, const std::string& file, const std::string& parent,
+                          const Nodes& others, const NodeRegistry& registry, const Roots& roots) {
+  return Checker(registry, roots).piece(text, file, parent, others);
 }
 
 }  // namespace parvis::scene

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "base/files.h"
 #include "base/result.h"
@@ -21,7 +23,12 @@ inline constexpr std::size_t max_included_bytes = 512u << 20;  ///< of all files
 /// The top-level nodes of `script`. Every error of every file is reported: syntax, unknown types and
 /// attributes, values, files that are missing or lie outside `roots`, repeated names, references to nothing,
 /// cyclic includes. Files are relative to the script that names them, see find_named_file.
-Result<std::vector<Node>> check_script(const std::filesystem::path& script, const NodeRegistry& registry,
-                                       const Roots& roots);
+Result<Nodes> check_script(const std::filesystem::path& script, const NodeRegistry& registry,
+                           const Roots& roots);
+
+/// The same for a piece of script that is to stand in a node of the type `parent` (`top_level`: in none) of a
+/// scene whose nodes are `others`: its names are new, and it may refer to theirs. `file` stands in errors.
+Result<Nodes> check_piece(std::string_view text, const std::string& file, const std::string& parent,
+                          const Nodes& others, const NodeRegistry& registry, const Roots& roots);
 
 }  // namespace parvis::scene

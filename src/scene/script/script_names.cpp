@@ -14,8 +14,8 @@ class NameResolver {
   NameResolver(const ScriptNames& names, const Roots& roots, const std::function<void(Error)>& tell)
       : names_(names), roots_(roots), tell_(tell) {}
 
-  void know_nodes(const std::vector<Node>& nodes);
-  void resolve(std::vector<Node>& nodes);
+  void know_nodes(const Nodes& nodes);
+  void resolve(Nodes& nodes);
 
  private:
   void resolve_reference(const AttributeSchema& schema, const std::string& name, const FileLocation& where);
@@ -31,7 +31,7 @@ class NameResolver {
   std::map<std::string, const Node*> nodes_;  ///< by their names
 };
 
-void NameResolver::know_nodes(const std::vector<Node>& nodes) {
+void NameResolver::know_nodes(const Nodes& nodes) {
   for (const Node& node : nodes) {
     if (node.schema->is_unique)
       for (const std::string& name : unique_names(node.schema->type)) nodes_.emplace(name, &node);
@@ -61,7 +61,7 @@ std::vector<std::string> NameResolver::known_names(const std::vector<std::string
   return known;
 }
 
-void NameResolver::resolve(std::vector<Node>& nodes) {
+void NameResolver::resolve(Nodes& nodes) {
   for (Node& node : nodes) {
     for (const NodeAttribute& attribute : node.attributes) {
       const AttributeSchema& schema = *attribute.schema;
@@ -166,10 +166,11 @@ void NameResolver::resolve_override(Node& node) {
 
 }  // namespace
 
-void resolve_names(std::vector<Node>& nodes, const ScriptNames& names, const Roots& roots,
-                   const std::function<void(Error)>& fail) {
+void resolve_names(Nodes& nodes, const ScriptNames& names, const Roots& roots,
+                   const std::function<void(Error)>& fail, const Nodes& others) {
   NameResolver resolver(names, roots, fail);
   resolver.know_nodes(nodes);
+  resolver.know_nodes(others);
   resolver.resolve(nodes);
 }
 

@@ -27,8 +27,8 @@ struct ScriptNames {
 };
 
 /// Resolves every name that the nodes use, and parses overrides by the schema of the node that they override.
-/// Reports each mistake to `fail`.
-void resolve_names(std::vector<Node>& nodes, const ScriptNames& names, const Roots& roots,
-                   const std::function<void(Error)>& fail);
+/// Reports each mistake to `fail`. Names may be those of `others`, too: of nodes that have been resolved.
+void resolve_names(Nodes& nodes, const ScriptNames& names, const Roots& roots,
+                   const std::function<void(Error)>& fail, const Nodes& others = {});
 
 }  // namespace parvis::scene

@@ -1,0 +1,32 @@
+// What the parts of the benches measure: one function each, which parts.cpp lists.
+#pragma once
+
+#include "bench/bench.h"
+
+namespace parvis::bench {
+
+using Measured = void(const BenchSetup& setup, Report& report);
+
+Measured measure_frames, measure_mirrors;                                             // frame.cpp
+Measured measure_processes, measure_window;                                           // commands.cpp
+Measured measure_reading, measure_scenarios, measure_photographs, measure_isolation;  // formats/reading.cpp
+Measured measure_place_files, measure_streets;                                        // formats/places.cpp
+Measured measure_maps_memory, measure_placement, measure_maps_cost, measure_maps_near_cost,
+    measure_maps_bodies, measure_maps_city_size, measure_maps_quality, measure_maps_traced,
+    measure_maps_motion, measure_maps_budget, measure_maps_paper,
+    measure_maps_other_places;  // reflections/maps.cpp
+Measured measure_explosion_maps, measure_search, measure_roots, measure_edges, measure_cost, measure_grids,
+    measure_kitchen, measure_bonnet, measure_two_bounces, measure_refraction;  // curved/
+Measured measure_sky, measure_sky_update, measure_relighting, measure_lit_object, measure_bounced_light,
+    measure_night, measure_sun_hours, measure_shadows, measure_shadow_times;            // light/
+Measured measure_vegetation;                                                            // vegetation.cpp
+Measured measure_sceaux, measure_courtyard, measure_filling, measure_drawings;          // facades/
+Measured measure_reconstruction, measure_display, measure_maize, measure_distribution;  // trees/
+
+/// Of a stage of the paper's city, or of its scene: what some parts of reflections/maps.cpp consist of.
+void measure_motion(house::Stage& stage, const BenchSetup& setup, Report& report);
+void measure_budget(house::Stage& stage, const BenchSetup& setup, Report& report);
+void measure_body_count(const scene::Scene& city, const BenchSetup& setup, Report& report);
+void measure_city_size(const scene::Scene& city, const BenchSetup& setup, Report& report);
+
+}  // namespace parvis::bench

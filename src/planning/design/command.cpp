@@ -1,0 +1,504 @@
+#include "planning/design/command.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/known_names.h"
+#include "planning/design/shape_models.h"
+#include "scene/data/name_pattern.h"
+
+namespace parvis::design {
+namespace {
+
+using scene::Node;
+
+constexpr double max_reach_m = 100'000.0;  // from the scene's origin: floats are off by millimetres there
+constexpr double same_place_m = 0.01;
+constexpr std::size_t max_objects = 20'000;
+
+/// What stands in the design, and what a command makes of it, step by step.
+class Draft {
+ public:
+  explicit Draft(const DesignView& view) : view_(view) {}
+
+  void fail(Error error) { errors_.push_back(std::move(error)); }
+  bool has_failed() const { return !errors_.empty(); }
+
+  /// The objects of these names or patterns, as they are; each once. Locked ones are an error where
+  /// `to_change`.
+  std::vector<Node> objects(const Names& names, bool to_change = true);
+  Node fresh(const char* type) const;
+
+  void changes(const Node& before, Node after) { made_.push_back({before, std::move(after), {}}); }
+  void adds(Node node) { made_.push_back({std::nullopt, std::move(node), {}}); }
+  void removes(const Node& node) { made_.push_back({node, std::nullopt, {}}); }
+
+  std::string free_name(const std::string& stem);
+  void check_name(const std::string& name);
+  double height_at(glm::dvec2 at, const Names& without = {}) const {
+    return view_.resting_height ? view_.resting_height(at, without) : 0.0;
+  }
+  const Kind* kind(const std::string& name) {
+    const Kind* found = find_kind(view_.scene, name);
+    if (!found) fail(error("{}", no_such_kind(view_.scene, name)));
+    return found;
+  }
+  template <class Value>
+  void give(Node& node, const char* attribute, const Value& value);
+  void give_text(Node& node, const char* attribute, const std::string& text);
+  void place(Node& node, glm::dvec3 at);
+
+  Result<Changes> finish();
+
+ private:
+  bool is_near(const Node& one, const Node& other) const;
+  void check_places();
+
+  const DesignView& view_;
+  Changes made_;
+  std::set<std::string> taken_;
+  std::vector<Error> errors_;
+};
+
+std::string name_of(const Node& node) { return node.text("name"); }
+bool is_surface(const Node& node) { return node.schema->type == surface_type; }
+glm::dvec3 place_of(const Node& node) { return exact_decimals(node.vec3("position")); }
+
+std::vector<Node> Draft::objects(const Names& names, bool to_change) {
+  std::vector<Node> found;
+  std::set<const Node*> seen;
+  if (names.empty()) fail(error("nothing is selected: name the objects, or select some first"));
+  for (const std::string& wanted : names) {
+    bool is_any = false;
+    if (view_.design)
+      for (const Node& node : view_.design->children) {
+        const std::string name = name_of(node);
+        const bool is_meant = scene::is_pattern(wanted) ? scene::matches(wanted, name) : wanted == name;
+        if (!is_meant) continue;
+        is_any = true;
+        if (!seen.insert(&node).second) continue;
+        if (to_change && node.flag("locked"))
+          fail(error("\"{}\" is locked; unlock it first", name));
+        else
+          found.push_back(node);
+      }
+    if (is_any) continue;
+    std::vector<std::string> known;
+    if (view_.design)
+      for (const Node& node : view_.design->children) known.push_back(name_of(node));
+    fail(error("the design has no object \"{}\"{}", wanted.substr(0, 40), names_that_exist(wanted, known)));
+  }
+  return found;
+}
+
+Node Draft::fresh(const char* type) const {
+  Node node;
+  node.schema = &view_.live.registry().find(type)->schema;
+  return node;
+}
+
+std::string Draft::free_name(const std::string& stem) {
+  for (int number = 1;; ++number) {
+    std::string name = fmt::format("{}_{}", stem, number);
+    if (!view_.live.find(name) && taken_.insert(name).second) return name;
+  }
+}
+
+void Draft::check_name(const std::string& name) {
+  if (name.find_first_of(" \t\r\n,*?\"") != std::string::npos || name.empty())
+    return fail(error("\"{}\" is no name: names have no blanks, commas, quotes, * or ?", name.substr(0, 40)));
+  if (view_.live.find(name) || !taken_.insert(name).second)
+    fail(error("the name \"{}\" is taken; names are unique in a scene", name.substr(0, 40)));
+}
+
+template <class Value>
+void Draft::give(Node& node, const char* attribute, const Value& value) {
+  node.set(attribute, value);
+  node.attributes.back().where = {};
+}
+
+void Draft::give_text(Node& node, const char* attribute, const std::string& text) {
+  const scene::AttributeSchema* schema = node.schema->find(attribute);
+  if (!schema) return fail(error("a {} has no {}", node.schema->type, attribute));
+  Result<scene::AttributeValue> value = scene::parse_value(*schema, text, Roots(""), {});
+  if (!value) return fail(value.errors().front());
+  node.set(attribute, *std::move(value));
+  node.attributes.back().where = {};
+}
+
+void Draft::place(Node& node, glm::dvec3 at) {
+  if (at.z == rests) at.z = height_at(glm::dvec2(at));
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(at[axis]) <= max_reach_m))
+      return fail(error("{:g} m is further than {:g} km from the scene's origin; check the coordinates",
+                        at[axis], max_reach_m / 1000.0));
+  give(node, "position", glm::vec3(at));
+}
+
+/// Do two objects of one kind stand in one place?
+bool Draft::is_near(const Node& one, const Node& other) const {
+  return !is_surface(one) && !is_surface(other) && one.text("kind") == other.text("kind") &&
+         glm::distance(place_of(one), place_of(other)) < same_place_m;
+}
+
+void Draft::check_places() {
+  std::set<std::string> gone;
+  for (const Change& change : made_)
+    if (change.before) gone.insert(name_of(*change.before));
+  for (std::size_t i = 0; i < made_.size() && !has_failed(); ++i) {
+    if (!made_[i].after) continue;
+    const Node& after = *made_[i].after;
+    if (made_[i].before && !is_surface(after) && place_of(*made_[i].before) == place_of(after)) continue;
+    const auto refuse = [&](const Node& other) {
+      if (is_near(after, other))
+        fail(error("\"{}\" stands there already; put \"{}\" beside it", name_of(other), name_of(after)));
+    };
+    for (std::size_t k = 0; k < i; ++k)
+      if (made_[k].after) refuse(*made_[k].after);
+    if (view_.design)
+      for (const Node& other : view_.design->children)
+        if (!gone.contains(name_of(other))) refuse(other);
+  }
+}
+
+Result<Changes> Draft::finish() {
+  check_places();
+  const std::size_t before = view_.design ? view_.design->children.size() : 0;
+  std::size_t added = 0;
+  for (const Change& change : made_) added += !change.before;
+  if (before + added > max_objects)
+    fail(error("a design has at most {} objects; divide it into several designs", max_objects));
+  if (has_failed()) return Errors(errors_.begin(), errors_.end());
+  return made_;
+}
+
+/// The lengths that a kind lets be changed.
+void resize_one(Draft& draft, Node& node, const Resize& how) {
+  const Kind* kind = draft.kind(node.text("kind"));
+  if (!kind) return;
+  struct Axis {
+    const char* name;
+    const std::optional<double>& wanted;
+    Changeable what;
+    double usual;
+  };
+  for (const Axis& axis : {Axis{"width", how.width, Changeable::width, kind->size_m.x},
+                           Axis{"depth", how.depth, Changeable::depth, kind->size_m.y},
+                           Axis{"height", how.height, Changeable::height, kind->size_m.z}}) {
+    const bool is_asked = axis.wanted.has_value();
+    if (!is_asked && (how.factor == 1.0 || !kind->may_change(axis.what))) continue;
+    if (!kind->may_change(axis.what)) {
+      draft.fail(error("the {} of a {} is fixed", axis.name, kind->name));
+      continue;
+    }
+    const double now = node.gives(axis.name) ? node.number(axis.name) : axis.usual;
+    const double length = is_asked ? *axis.wanted : now * how.factor;
+    const int i = axis.what == Changeable::width ? 0 : axis.what == Changeable::depth ? 1 : 2;
+    if (!(length >= kind->min_m[i] && length <= kind->max_m[i]))
+      draft.fail(error("the {} of a {} is {:g} to {:g} m, not {:g} m", axis.name, kind->name, kind->min_m[i],
+                       kind->max_m[i], length));
+    else
+      draft.give(node, axis.name, length);
+  }
+}
+
+void forget(Node& node, const char* attribute) {
+  std::erase_if(node.attributes, [&](const auto& each) { return each.schema->name == attribute; });
+}
+
+void paint_one(Draft& draft, Node& node, const std::string& colour, const std::string& material) {
+  const Kind* kind = is_surface(node) ? nullptr : draft.kind(node.text("kind"));
+  if (!colour.empty()) {
+    if (kind && !kind->may_change(Changeable::colour))
+      draft.fail(error("the colour of a {} is fixed", kind->name));
+    else
+      draft.give_text(node, "colour", colour);
+  }
+  if (!material.empty()) {
+    if (kind && !kind->may_change(Changeable::material))
+      draft.fail(error("the material of a {} is fixed", kind->name));
+    else
+      draft.give_text(node, "material", material);
+  }
+}
+
+Node made_object(Draft& draft, const Insert& what) {
+  Node node = draft.fresh(placed_type);
+  if (!draft.kind(what.kind)) return node;
+  if (!what.name.empty()) draft.check_name(what.name);
+  draft.give(node, "name", what.name.empty() ? draft.free_name(what.kind) : what.name);
+  draft.give(node, "kind", what.kind);
+  draft.place(node, what.position);
+  if (!(std::abs(what.heading_deg) <= 1e6))
+    draft.fail(error("{:g} degrees are no heading", what.heading_deg));
+  if (what.heading_deg != 0.0) draft.give(node, "heading_deg", glm::radians(what.heading_deg));
+  if (what.width || what.depth || what.height)
+    resize_one(draft, node, {{}, 1.0, what.width, what.depth, what.height});
+  paint_one(draft, node, what.colour, what.material);
+  return node;
+}
+
+/// What each command changes.
+struct Maker {
+  Draft& draft;
+
+  void operator()(const Insert& c) const { draft.adds(made_object(draft, c)); }
+
+  void operator()(const Surface& c) const {
+    Node node = draft.fresh(surface_type);
+    if (c.outline.size() < 3)
+      return draft.fail(error("a surface has at least three corners, not {}", c.outline.size()));
+    if (!c.name.empty()) draft.check_name(c.name);
+    draft.give(node, "name", c.name.empty() ? draft.free_name("surface") : c.name);
+    std::vector<glm::vec3> outline;
+    for (glm::dvec3 corner : c.outline) {
+      Node there = draft.fresh(placed_type);
+      draft.place(there, corner);
+      if (!draft.has_failed()) outline.push_back(there.vec3("position"));
+    }
+    draft.give(node, "outline", outline);
+    draft.give_text(node, "material", c.material);
+    if (!c.colour.empty()) draft.give_text(node, "colour", c.colour);
+    draft.adds(std::move(node));
+  }
+
+  void shift(const Node& node, glm::dvec3 by, Node& after) const {
+    if (!is_surface(node)) return draft.place(after, place_of(node) + by);
+    std::vector<glm::vec3> outline = node.points("outline");
+    for (glm::vec3& corner : outline) corner = glm::vec3(glm::dvec3(corner) + by);
+    draft.give(after, "outline", outline);
+  }
+
+  void operator()(const Move& c) const {
+    const std::vector<Node> objects = draft.objects(c.names);
+    if (objects.empty()) return;
+    glm::dvec3 by = c.by;
+    const auto first = [&] {
+      return is_surface(objects.front()) ? glm::dvec3(objects.front().points("outline").front())
+                                         : place_of(objects.front());
+    };
+    if (c.is_absolute) {
+      if (by.z == rests) by.z = draft.height_at(glm::dvec2(by), c.names);
+      by -= first();
+    }
+    for (const Node& node : objects) {
+      Node after = node;
+      if (!is_surface(node) && c.is_absolute && &node == &objects.front())
+        draft.place(after,
+                    {c.by.x, c.by.y,
+                     c.by.z == rests ? draft.height_at(glm::dvec2(c.by), c.names) : c.by.z});  // exactly
+      else
+        shift(node, by, after);
+      draft.changes(node, std::move(after));
+    }
+  }
+
+  void operator()(const Turn& c) const {
+    if (!(std::abs(c.degrees) <= 1e6)) return draft.fail(error("{:g} degrees are no turn", c.degrees));
+    const double cosine = std::cos(glm::radians(-c.degrees)), sine = std::sin(glm::radians(-c.degrees));
+    for (const Node& node : draft.objects(c.names)) {
+      Node after = node;
+      const auto turned = [&](glm::dvec2 at) {
+        const glm::dvec2 from = at - *c.about;
+        return *c.about + glm::dvec2(cosine * from.x - sine * from.y, sine * from.x + cosine * from.y);
+      };
+      if (is_surface(node)) {
+        if (!c.about) {
+          draft.fail(error("\"{}\" is a surface: say about which place it turns", name_of(node)));
+          continue;
+        }
+        std::vector<glm::vec3> outline = node.points("outline");
+        for (glm::vec3& corner : outline) corner = glm::vec3(glm::vec2(turned(glm::dvec2(corner))), corner.z);
+        draft.give(after, "outline", outline);
+      } else {
+        double heading = c.is_absolute ? c.degrees : glm::degrees(node.number("heading_deg")) + c.degrees;
+        heading = std::remainder(heading, 360.0);
+        draft.give(after, "heading_deg", glm::radians(heading));
+        if (c.about) draft.place(after, glm::dvec3(turned(glm::dvec2(place_of(node))), place_of(node).z));
+      }
+      draft.changes(node, std::move(after));
+    }
+  }
+
+  void operator()(const Resize& c) const {
+    if (c.factor == 1.0 && !c.width && !c.depth && !c.height)
+      return draft.fail(error("no size is given: by FACTOR, width M, depth M or height M"));
+    for (const Node& node : draft.objects(c.names)) {
+      if (is_surface(node)) {
+        draft.fail(error("\"{}\" is a surface: draw it again to resize it", name_of(node)));
+        continue;
+      }
+      Node after = node;
+      resize_one(draft, after, c);
+      draft.changes(node, std::move(after));
+    }
+  }
+
+  void operator()(const Delete& c) const {
+    for (const Node& node : draft.objects(c.names)) draft.removes(node);
+  }
+
+  void operator()(const Duplicate& c) const {
+    for (const Node& node : draft.objects(c.names, false)) {
+      Node copy = node;
+      draft.give(copy, "name", draft.free_name(is_surface(node) ? "surface" : node.text("kind")));
+      forget(copy, "locked");
+      shift(node, c.by, copy);
+      draft.adds(std::move(copy));
+    }
+  }
+
+  void operator()(const Row& c) const {
+    const double length = glm::distance(c.from, c.to);
+    if (!(length <= max_reach_m))
+      return draft.fail(error("a row of {:g} m is too long; check the coordinates", length));
+    if (length < same_place_m) return draft.fail(error("the row begins where it ends; give two places"));
+    if ((c.count != 0) == (c.spacing_m != 0.0) || c.count < 0 || c.spacing_m < 0.0)
+      return draft.fail(error("say how many stand in the row (count N) or how far apart (spacing M)"));
+    const double places = c.count > 0 ? double(c.count) : std::floor(length / c.spacing_m + 1e-9) + 1.0;
+    if (places < 2.0 || places > double(max_objects))
+      return draft.fail(error("a row has 2 to {} objects, not {:g}", max_objects, places));
+    const glm::dvec2 along = (c.to - c.from) / length;
+    const double step = c.count > 0 ? length / (places - 1.0) : c.spacing_m;
+    const double across_deg = glm::degrees(std::atan2(-along.y, along.x));  // to the left of the row
+    for (int i = 0; i < int(places); ++i) {
+      const glm::dvec2 at = i + 1 == int(places) && c.count > 0 ? c.to : c.from + double(i) * step * along;
+      draft.adds(made_object(
+          draft, {c.kind, glm::dvec3(at, rests), c.heading_deg.value_or(across_deg), {}, {}, {}}));
+    }
+  }
+
+  void operator()(const Space& c) const {
+    const std::vector<Node> objects = draft.objects(c.names);
+    if (objects.size() < 3)
+      return draft.fail(error("even spacing needs three objects or more, not {}", objects.size()));
+    if (std::ranges::any_of(objects, is_surface)) return draft.fail(error("surfaces cannot be spaced"));
+    const glm::dvec3 from = place_of(objects.front()), to = place_of(objects.back());
+    for (std::size_t i = 1; i + 1 < objects.size(); ++i) {
+      Node after = objects[i];
+      draft.place(after, glm::mix(from, to, double(i) / double(objects.size() - 1)));
+      draft.changes(objects[i], std::move(after));
+    }
+  }
+
+  void operator()(const Align& c) const {
+    const std::vector<Node> objects = draft.objects(c.names);
+    if (objects.size() < 2) return draft.fail(error("objects are aligned with the first: name two or more"));
+    if (std::ranges::any_of(objects, is_surface)) return draft.fail(error("surfaces cannot be aligned"));
+    const int axis = c.what == "x" ? 0 : c.what == "y" ? 1 : c.what == "z" ? 2 : -1;
+    if (axis < 0 && c.what != "heading")
+      return draft.fail(error("\"{}\": objects are aligned by x, y, z or heading", c.what.substr(0, 40)));
+    for (std::size_t i = 1; i < objects.size(); ++i) {
+      Node after = objects[i];
+      if (axis >= 0) {
+        glm::dvec3 at = place_of(objects[i]);
+        at[axis] = place_of(objects.front())[axis];
+        draft.place(after, at);
+      } else {
+        draft.give(after, "heading_deg", objects.front().number("heading_deg"));
+      }
+      draft.changes(objects[i], std::move(after));
+    }
+  }
+
+  void operator()(const Group& c) const {
+    for (const Node& node : draft.objects(c.names)) {
+      Node after = node;
+      if (c.group.empty())
+        forget(after, "group");
+      else
+        draft.give(after, "group", c.group);
+      draft.changes(node, std::move(after));
+    }
+  }
+
+  void operator()(const Lock& c) const {
+    for (const Node& node : draft.objects(c.names, false)) {
+      Node after = node;
+      if (c.locks)
+        draft.give(after, "locked", true);
+      else
+        forget(after, "locked");
+      draft.changes(node, std::move(after));
+    }
+  }
+
+  void operator()(const Paint& c) const {
+    for (const Node& node : draft.objects(c.names)) {
+      Node after = node;
+      paint_one(draft, after, c.colour, c.material);
+      draft.changes(node, std::move(after));
+    }
+  }
+
+  void operator()(const Swap& c) const {
+    if (!draft.kind(c.kind)) return;
+    for (const Node& node : draft.objects(c.names)) {
+      if (is_surface(node)) {
+        draft.fail(error("\"{}\" is a surface and has no kind", name_of(node)));
+        continue;
+      }
+      Node after = node;
+      for (const char* own : {"width", "depth", "height", "colour", "material"}) forget(after, own);
+      draft.give(after, "kind", c.kind);
+      draft.changes(node, std::move(after));
+    }
+  }
+
+  void operator()(const Apply& c) const {
+    const std::vector<Node> from = draft.objects({c.from}, false);
+    if (from.empty()) return;
+    for (const Node& node : draft.objects(c.names)) {
+      if (name_of(node) == name_of(from.front())) continue;
+      if (is_surface(node) != is_surface(from.front())) {
+        draft.fail(error("\"{}\" and \"{}\" are not alike: one is a surface", c.from, name_of(node)));
+        continue;
+      }
+      Node after = node;
+      for (const char* look : {"kind", "width", "depth", "height", "colour", "material"}) {
+        if (!node.schema->find(look)) continue;
+        forget(after, look);
+        for (const scene::NodeAttribute& attribute : from.front().attributes)
+          if (attribute.schema->name == look) after.attributes.push_back(attribute);
+      }
+      draft.changes(node, std::move(after));
+    }
+  }
+
+  void operator()(const Rename& c) const {
+    const std::vector<Node> objects = draft.objects({c.from});
+    draft.check_name(c.to);
+    if (objects.size() != 1)
+      return draft.fail(error("\"{}\" names {} objects; name one", c.from, objects.size()));
+    Node after = objects.front();
+    draft.give(after, "name", c.to);
+    draft.changes(objects.front(), std::move(after));
+  }
+};
+
+}  // namespace
+
+Result<Changes> changes_of(const DesignView& view, const Command& command) {
+  Draft draft(view);
+  std::visit(Maker{draft}, command);
+  return draft.finish();
+}
+
+Result<Command> resolved(const DesignView& view, Command command) {
+  const auto rest = [&](glm::dvec3& at, const Names& without = {}) {
+    if (at.z == rests) at.z = view.resting_height ? view.resting_height(glm::dvec2(at), without) : 0.0;
+  };
+  if (auto* insert = std::get_if<Insert>(&command)) {
+    rest(insert->position);
+    if (insert->name.empty()) insert->name = Draft(view).free_name(insert->kind);
+  } else if (auto* move = std::get_if<Move>(&command)) {
+    if (move->is_absolute) rest(move->by, move->names);
+  } else if (auto* surface = std::get_if<Surface>(&command)) {
+    for (glm::dvec3& corner : surface->outline) rest(corner);
+    if (surface->name.empty()) surface->name = Draft(view).free_name("surface");
+  }
+  return command;
+}
+
+}  // namespace parvis::design

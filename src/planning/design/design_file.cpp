@@ -1,0 +1,183 @@
+#include "planning/design/design_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/colour.h"
+#include "base/files.h"
+#include "base/json_guard.h"
+#include "scene/script/node_text.h"
+#include "scene/script/script_format.h"
+#include "scene/script/script_reader.h"
+
+namespace parvis::design {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int json_version = 1;
+
+/// The node of the file's tree that is the design of this name; null: there is none.
+scene::ScriptNode* design_in(scene::ScriptNode& parent, const std::string& name) {
+  for (scene::ScriptNode& child : parent.children) {
+    const auto named = std::ranges::find(child.attributes, "name", &scene::ScriptAttribute::name);
+    if (child.type == design_type && named != child.attributes.end() && named->value == name) return &child;
+    if (scene::ScriptNode* inside = design_in(child, name)) return inside;
+  }
+  return nullptr;
+}
+
+/// Objects that the file has keep their comments.
+void put_objects(scene::ScriptNode& design, const scene::Node& node) {
+  std::vector<scene::ScriptNode> before = std::exchange(design.children, {});
+  for (const scene::Node& object : node.children) {
+    scene::ScriptNode written = scene::written_node(object);
+    for (const scene::ScriptNode& known : before) {
+      const auto named = std::ranges::find(known.attributes, "name", &scene::ScriptAttribute::name);
+      if (named == known.attributes.end() || named->value != object.text("name")) continue;
+      written.comments_before = known.comments_before, written.comments_behind = known.comments_behind;
+    }
+    design.children.push_back(std::move(written));
+  }
+}
+
+std::string colour_text(const glm::vec3& linear) {
+  const glm::vec3 srgb = glm::round(255.0f * glm::clamp(srgb_from_linear(linear), 0.0f, 1.0f));
+  return fmt::format("#{:02X}{:02X}{:02X}", int(srgb.x), int(srgb.y), int(srgb.z));
+}
+
+Json point(const glm::dvec3& at) { return {at.x, at.y, at.z}; }
+
+}  // namespace
+
+fs::path file_of(const Session& session) {
+  return session.design() ? session.design()->where.file : std::string();
+}
+
+Status save(const Session& session, const fs::path& scene_script, const fs::path& file) {
+  const scene::Node* node = session.design();
+  if (!node) return error("the design has no objects yet; there is nothing to write");
+  std::error_code code;
+  const fs::path folder = fs::weakly_canonical(scene_script, code).parent_path();
+  if (fs::weakly_canonical(file, code).parent_path() != folder)
+    return error(
+        "{}: a design lies in the folder of its scene, for files are named relative to it; write it to {}",
+        file.string(), (folder / file.filename()).string());
+  const fs::path from = file_of(session);
+  scene::ScriptNode tree;
+  if (!from.empty()) {
+    const Result<std::string> text = read_file(from);
+    if (!text) return text.errors();
+    Result<scene::ScriptNode> read = scene::parse_script_file(*text, from.string());
+    if (!read) return read.errors();
+    tree = *std::move(read);
+    scene::ScriptNode* design = design_in(tree, session.name());
+    if (!design)
+      return error("{}: the design \"{}\" is not there any more; the file was changed meanwhile",
+                   from.string(), session.name());
+    put_objects(*design, *node);
+    // A file beside the scene that is no scene by itself includes it.
+    if (fs::weakly_canonical(file, code) != from && from != fs::weakly_canonical(scene_script, code))
+      tree.comments_before.insert(tree.comments_before.begin(),
+                                  "// A design of " + scene_script.filename().string());
+  } else {
+    scene::ScriptNode include;
+    include.type = scene::include_type;
+    include.attributes.emplace_back().name = "file";
+    include.attributes.back().value = scene_script.filename().string();
+    tree.children = {std::move(include), scene::written_node(*node)};
+  }
+  return write_file(file, scene::format_script(tree));
+}
+
+std::string json_of(const scene::Scene& scene, const Session& session) {
+  Json objects = Json::array();
+  for (const PlacedObject& object : session.objects()) {
+    Json& entry = objects.emplace_back();
+    entry["name"] = object.name, entry["kind"] = object.kind;
+    if (object.kind == "ground") {
+      Json outline = Json::array();
+      for (const glm::dvec2& corner : object.outline)
+        outline.push_back(point(glm::dvec3(corner, object.position.z)));
+      entry["outline"] = std::move(outline);
+    } else {
+      entry["position"] = point(object.position), entry["heading_deg"] = object.heading_deg;
+      entry["size"] = point(object.size_m);
+    }
+    entry["colour"] = colour_text(object.colour);
+    if (!object.material.empty()) entry["material"] = object.material;
+    if (!object.group.empty()) entry["group"] = object.group;
+    if (object.is_locked) entry["locked"] = true;
+  }
+  Json whole;
+  whole["parvis_design"] = json_version, whole["name"] = session.name(), whole["unit"] = "m";
+  whole["origin"] = point(scene.origin), whole["objects"] = std::move(objects);
+  return whole.dump(2) + "\n";
+}
+
+Status read_json(const std::string& text, const std::string& file, Session& session) {
+  if (Status status = check_json_depth(text, file); !status) return status;
+  const Json whole = Json::parse(text, nullptr, false);
+  if (whole.is_discarded()) return error("{}: this is no JSON, or its end is missing", file);
+  if (!whole.is_object() || !whole.contains("parvis_design") || !whole["parvis_design"].is_number_integer())
+    return error("{}: this is no design: expected \"parvis_design\": {}", file, json_version);
+  if (whole["parvis_design"].get<long>() > json_version)
+    return error("{}: the design is of version {}, newer than this program ({}); open it with that one", file,
+                 whole["parvis_design"].get<long>(), json_version);
+  if (!whole.contains("objects") || !whole["objects"].is_array())
+    return error("{}: expected a list \"objects\"", file);
+  const auto numbers = [](const Json& entry, std::size_t count) {
+    std::vector<double> values;
+    if (entry.is_array() && entry.size() == count)
+      for (const Json& value : entry)
+        if (value.is_number()) values.push_back(value.get<double>());
+    return values.size() == count ? values : std::vector<double>();
+  };
+  const auto text_in = [](const Json& entry, const char* key) {
+    return entry.contains(key) && entry[key].is_string() ? entry[key].get<std::string>() : std::string();
+  };
+  std::size_t number = 0;
+  for (const Json& entry : whole["objects"]) {
+    ++number;
+    const auto wrong = [&](const std::string& what) {
+      return error("{}: object {}: {}", file, number, what);
+    };
+    if (!entry.is_object()) return wrong("expected an object");
+    const std::string kind = text_in(entry, "kind"), name = text_in(entry, "name");
+    Status status = Done{};
+    if (kind == "ground") {
+      Surface surface{text_in(entry, "material"), {}, text_in(entry, "colour"), name};
+      if (!entry.contains("outline") || !entry["outline"].is_array())
+        return wrong("a ground surface has an \"outline\"");
+      for (const Json& corner : entry["outline"]) {
+        const std::vector<double> at = numbers(corner, 3);
+        if (at.empty()) return wrong("a corner is [x, y, z] in metres");
+        surface.outline.emplace_back(at[0], at[1], at[2]);
+      }
+      status = session.run(Command(surface));
+    } else {
+      const std::vector<double> at =
+          entry.contains("position") ? numbers(entry["position"], 3) : std::vector<double>();
+      if (at.empty()) return wrong("\"position\" is [x, y, z] in metres");
+      Insert insert{kind, {at[0], at[1], at[2]}};
+      insert.name = name;
+      if (entry.contains("heading_deg") && entry["heading_deg"].is_number())
+        insert.heading_deg = entry["heading_deg"].get<double>();
+      const Kind* known = find_kind(session.view().scene, kind);
+      if (const std::vector<double> size =
+              entry.contains("size") ? numbers(entry["size"], 3) : std::vector<double>();
+          !size.empty() && known) {
+        if (known->may_change(Changeable::width)) insert.width = size[0];
+        if (known->may_change(Changeable::depth)) insert.depth = size[1];
+        if (known->may_change(Changeable::height)) insert.height = size[2];
+      }
+      if (known && known->may_change(Changeable::colour)) insert.colour = text_in(entry, "colour");
+      insert.material = text_in(entry, "material");
+      status = session.run(Command(insert));
+    }
+    if (!status) return wrong(status.errors().front().message);
+  }
+  return Done{};
+}
+
+}  // namespace parvis::design

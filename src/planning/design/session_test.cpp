@@ -1,0 +1,150 @@
+#include "planning/design/session.h"
+
+#include <gtest/gtest.h>
+
+#include "base/colour.h"
+#include "planning/design/random_commands.h"
+#include "planning/design/shape_models.h"
+#include "planning/design/test_design.h"
+
+namespace parvis::design {
+namespace {
+
+TEST_F(DesignTest, WhatIsTypedStandsThere) {
+  open();
+  run("insert bench_stone 12.345,3.05 heading 90");
+  const PlacedObject bench = object("bench_stone_1");
+  EXPECT_EQ(bench.position, glm::dvec3(12.345, 3.05, 0.0));
+  EXPECT_EQ(bench.heading_deg, 90.0);
+  EXPECT_EQ(bench.size_m, glm::dvec3(2.0, 0.5, 0.45));
+  EXPECT_NEAR(bench.outline.front().y, 3.05 + 1.0, 1e-9) << "its front looks to the east";
+  ASSERT_EQ(visible(), 1);
+  EXPECT_NEAR(glm::distance(glm::vec3(scene_.objects[0].world_from_model[3]), glm::vec3(12.345f, 3.05f, 0)),
+              0, 1e-6);
+  const Bounds box = bounds(*scene_.objects[0].model);
+  EXPECT_NEAR(box.size().x, 2.0f, 1e-5f);
+  EXPECT_NEAR(box.size().z, 0.45f, 1e-5f);
+}
+
+TEST_F(DesignTest, EveryKindOfTheCatalogueStands) {
+  open();
+  int at = 0;
+  for (const Kind& kind : shipped_kinds()) {
+    run(fmt::format("insert {} {},0", kind.name, 20 * at++));
+    const PlacedObject made = object(kind.name + "_1");
+    EXPECT_EQ(made.size_m, kind.size_m) << kind.name;
+    EXPECT_FALSE(kind.label_fr.empty());
+    if (kind.shape.empty()) continue;
+    const glm::vec3 size = bounds(shape_model(kind.shape, {glm::vec3(kind.size_m), kind.colour, ""})).size();
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(size[axis], float(kind.size_m[axis]), 0.16f * float(kind.size_m[axis]) + 0.02f)
+          << kind.name << " along axis " << axis;
+  }
+}
+
+TEST_F(DesignTest, CommandsChangeWhatTheySay) {
+  open();
+  run("row umbrella from 0,0 to 12,0 count 4");
+  EXPECT_EQ(object("umbrella_2").position, glm::dvec3(4, 0, 0));
+  run("move umbrella_2 by 0.5,1");
+  run("align umbrella_1,umbrella_2 y");
+  EXPECT_EQ(object("umbrella_2").position, glm::dvec3(4.5, 0, 0));
+  run("space umbrella_1,umbrella_2,umbrella_3,umbrella_4");
+  EXPECT_EQ(object("umbrella_2").position, glm::dvec3(4, 0, 0));
+  run("resize umbrella_1 width 4 height 3");
+  run("colour umbrella_1 #C04030");
+  run("apply umbrella_1 to umbrella_*");
+  EXPECT_EQ(object("umbrella_3").size_m, glm::dvec3(4, 4, 3));
+  EXPECT_NEAR(object("umbrella_3").colour.x, linear_from_srgb8(0xC0, 0x40, 0x30).x, 1e-6f);
+  run("group umbrella_1,umbrella_2 as corner");
+  run("select group corner");
+  EXPECT_EQ(session_->selected(), (Names{"umbrella_1", "umbrella_2"}));
+  run("turn selected by 90 about 0,0");
+  EXPECT_NEAR(glm::distance(object("umbrella_2").position, glm::dvec3(0, -4, 0)), 0.0, 1e-6) << "clockwise";
+  run("duplicate selected by 0,10");
+  EXPECT_EQ(session_->selected().size(), 2u);
+  run("select box -1,-1 1,1");
+  EXPECT_EQ(session_->selected(), (Names{"umbrella_1"}));
+  run("swap selected for bollard");
+  EXPECT_EQ(object("umbrella_1").size_m, glm::dvec3(0.2, 0.2, 0.96));
+  run("surface paving 0,0 8,0 8,6 0,6 name court");
+  EXPECT_NEAR(signed_area_m2(object("court").outline), 48.0, 1e-9);
+  run("select like umbrella_3");
+  EXPECT_EQ(session_->selected().size(), 5u) << "three of the row and two copies";
+  run("delete selected");
+  EXPECT_EQ(session_->objects().size(), 2u);
+}
+
+TEST_F(DesignTest, ACommandThatCannotBeDoneSaysWhyAndChangesNothing) {
+  open();
+  run("insert bench_wood 1,1");
+  EXPECT_EQ(refusal("insert bench_wod 1,1").substr(0, 58),
+            "the catalogue has no kind \"bench_wod\"; did you mean \"bench");
+  EXPECT_NE(refusal("insert bench_wood 1e30,0").find("km from the scene's origin"), std::string::npos);
+  EXPECT_NE(refusal("insert bench_wood 1,1").find("stands there already"), std::string::npos);
+  EXPECT_NE(refusal("insert bench_wood 1").find("X,Y or X,Y,Z"), std::string::npos);
+  EXPECT_NE(refusal("resize bench_wood_1 width 9").find("0.6 to 6 m"), std::string::npos);
+  EXPECT_NE(refusal("resize bench_wood_1 depth 1").find("is fixed"), std::string::npos);
+  EXPECT_NE(refusal("move selected to 3").find("X,Y"), std::string::npos);
+  EXPECT_NE(refusal("move bench_wood_2 by 1,1").find("no object \"bench_wood_2\""), std::string::npos);
+  EXPECT_NE(refusal("surface paving 0,0 1,0").find("three corners"), std::string::npos);
+  EXPECT_NE(refusal("surface paving 0,0 1,0 2,0").find("no area"), std::string::npos);
+  EXPECT_NE(refusal("mov bench_wood_1 by 1,1").find("did you mean \"move\""), std::string::npos);
+  run("lock bench_wood_1");
+  EXPECT_NE(refusal("delete bench_wood_1").find("is locked"), std::string::npos);
+  run("select none");
+  EXPECT_NE(refusal("delete selected").find("nothing is selected"), std::string::npos);
+  EXPECT_NE(refusal("redo").find("nothing to do again"), std::string::npos);
+}
+
+TEST_F(DesignTest, TextFormsAreReadAsTheSameCommand) {
+  for (const char* text : {"insert bench_wood 12.345,3.05,0.15 heading 90 width 2.4 colour #804020 name b",
+                           "move a,b by 0.5,-1,0",
+                           "move a to 3,4,0",
+                           "turn a by 15 about 1,2",
+                           "turn a to 90",
+                           "resize a by 1.5",
+                           "resize a width 3 height 1",
+                           "delete a,b",
+                           "duplicate a by 1,0,0",
+                           "row bollard from 0,0 to 10,0 spacing 2.5 heading 0",
+                           "space a,b,c",
+                           "align a,b heading",
+                           "group a as g",
+                           "ungroup a",
+                           "lock a",
+                           "unlock a",
+                           "colour a #102030",
+                           "material a stone",
+                           "swap a for b",
+                           "apply a to b,c",
+                           "surface lawn 0,0,0 1,0,0 1,1,0 name s",
+                           "rename a as b"}) {
+    const Result<Command> command = parse_command(text);
+    ASSERT_TRUE(command) << text << to_string(command.errors());
+    EXPECT_EQ(text_of(*command), text);
+    EXPECT_FALSE(sentence_of(*command).empty());
+  }
+}
+
+TEST_F(DesignTest, EveryStepCanBeUndoneAndDoneAgain) {
+  open("design(name=d) { placed(name=old, kind=bench_wood, position=\"5 5 0\") }");
+  const std::string before = session_->script();
+  Random random(11);
+  std::vector<std::string> scripts{before};
+  for (int i = 0; i < 600; ++i) (void)session_->run(random_command(random, *session_));
+  EXPECT_GT(session_->done().size(), 100u);
+  const std::string after = session_->script();
+  const std::size_t steps = session_->done().size();
+  for (std::size_t i = 0; i < steps; ++i) ASSERT_TRUE(session_->undo());
+  EXPECT_EQ(session_->script(), before);
+  for (std::size_t i = 0; i < steps; ++i) ASSERT_TRUE(session_->redo());
+  EXPECT_EQ(session_->script(), after);
+  // What is to be seen is what a scene shows that is loaded with this design.
+  const int shown = visible();
+  open("design(name=d) { " + after + " }");
+  EXPECT_EQ(visible(), shown);
+}
+
+}  // namespace
+}  // namespace parvis::design

@@ -1,0 +1,61 @@
+// A scene with the nodes of designs, for tests.
+#pragma once
+
+#include "life/vegetation/room.h"
+#include "planning/design/room.h"
+#include "planning/design/session.h"
+#include "scene/script/room.h"
+#include "scene/script/test_script.h"
+
+namespace parvis::design {
+
+inline House test_house() {
+  House house;
+  script::furnish(house), vegetation::furnish(house), furnish(house);
+  return house;
+}
+
+/// Opens scenes of scripts, whose ground is level.
+class DesignTest : public scene::ScriptTest<> {
+ protected:
+  DesignTest() : ScriptTest(test_house()) {}
+
+  void open(const std::string& script = "camera(name=eye)") {
+    session_.reset();
+    auto loaded = ScriptTest::load(script);
+    ASSERT_TRUE(loaded) << to_string(loaded.errors());
+    scene_ = std::move(loaded->scene);
+    live_ = scene::LiveScene(std::move(loaded->script));
+    Result<Session> session = Session::open(scene_, live_, "", {});
+    ASSERT_TRUE(session) << to_string(session.errors());
+    session_ = *std::move(session);
+  }
+  void run(const std::string& command) {
+    const Status status = session_->run(command);
+    EXPECT_TRUE(status) << command << ": " << to_string(status.errors());
+  }
+  std::string refusal(const std::string& command) {
+    const std::string before = session_->script();
+    const Status status = session_->run(command);
+    EXPECT_FALSE(status) << command;
+    EXPECT_EQ(session_->script(), before) << command;
+    return status ? "" : status.errors().front().message;
+  }
+  PlacedObject object(const std::string& name) const {
+    for (const PlacedObject& each : session_->objects())
+      if (each.name == name) return each;
+    ADD_FAILURE() << "no " << name;
+    return {};
+  }
+  int visible() const {
+    int count = 0;
+    for (const scene::Object& each : scene_.objects) count += each.is_visible;
+    return count;
+  }
+
+  scene::Scene scene_;
+  scene::LiveScene live_;
+  std::optional<Session> session_;
+};
+
+}  // namespace parvis::design
