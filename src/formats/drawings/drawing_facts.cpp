@@ -69,7 +69,7 @@ void read_header(Groups header, DrawingFacts& facts) {
 void read_layers(Groups tables, DrawingFacts& facts) {
   for (const Groups& entry : runs(tables, 0)) {
     if (entry.front().value != "LAYER") continue;
-    const int colour = whole_of(entry, 62, 7);
+    const int colour = std::clamp(whole_of(entry, 62, 7), -255, 255);
     facts.layers.push_back(
         {text_of(entry, 2), colour >= 0, (whole_of(entry, 70) & 1) != 0, std::abs(colour)});
   }

@@ -418,10 +418,10 @@ void draw_column(const Page& page, glm::dvec2 min, glm::dvec2 max, const ScenePl
             width - 26.0);
   draw_scale_bar(page, {left, title_top + 36.0}, sheet.scale, width - 6.0);
   page.line({min.x, title_top + 46.0}, {max.x, title_top + 46.0}, 0.18, black);
-  const bool is_on_map = plan.origin != glm::dvec3(0.0);
-  page.paragraph(is_on_map
-                     ? "Coordinates are those of the map, in metres. Print at 100 %, not fitted to the page."
-                     : "Coordinates are the scene's own, in metres. Print at 100 %, not fitted to the page.",
+  const std::string frame = plan.origin == glm::dvec3(0.0)             ? "the scene's own"
+                            : plan.map.empty() || plan.map.size() > 40 ? "those of the map"
+                                                                       : "those of " + plan.map;
+  page.paragraph(fmt::format("Coordinates are {}, in metres. Print at 100 %, not fitted to the page.", frame),
                  {left, title_top + 51.0}, 1.7, width);
 }
 

@@ -50,7 +50,7 @@ class Cutter {
     for (std::size_t i = 0; i < object.model->parts.size(); ++i) {
       const scene::Part& part = object.model->parts[i];
       const scene::Material& material = object.materials()[std::size_t(part.material)];
-      if (part.is_backdrop || material.alpha_mode == scene::Alpha::blend) continue;
+      if (part.is_backdrop || material.alpha_mode != scene::Alpha::opaque) continue;  // leaves, panes
       const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
       if (is_road(part.object)) add_open_edges(object.mesh(i), world_from_mesh, roads);
       if (is_road(part.object) || is_of_ground(part.object)) continue;
@@ -178,7 +178,7 @@ glm::dvec2 ScenePlan::middle() const {
 
 ScenePlan plan_of(const scene::Scene& scene, std::vector<design::PlacedObject> placed) {
   ScenePlan plan;
-  plan.origin = scene.origin;
+  plan.origin = scene.origin, plan.map = scene.map;
   std::set<std::string> names;
   for (const design::PlacedObject& object : placed) names.insert(object.name);
   std::erase_if(placed, [](const design::PlacedObject& object) { return !object.is_visible; });

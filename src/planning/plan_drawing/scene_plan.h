@@ -43,6 +43,7 @@ struct PlanTree {
 /// All that a plan shows, in the scene's frame.
 struct ScenePlan {
   glm::dvec3 origin{0.0};  ///< map coordinates of the frame's origin; zero: the scene is not on a map
+  std::string map;         ///< as Scene::map: "EPSG:2154"; empty: unknown
   std::vector<PlanLine> lines;
   std::vector<PlanTree> trees;
   std::vector<PlanText> texts;
