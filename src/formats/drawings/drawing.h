@@ -87,6 +87,7 @@ struct Drawing {
   std::map<std::string, std::map<std::string, int>> entity_counts;
   std::map<std::string, int> left_out;  ///< entities that are not drawn, by type
   int paper_entities = 0;               ///< of layouts, which are left out, too
+  int far_away = 0;                     ///< lines, texts and points that lie beyond the earth
 
   /// A point near the drawing in whole metres at z = 0, about which floats are exact enough; zero where the
   /// drawing lies near zero itself.

@@ -83,7 +83,7 @@ void describe(Io& io, AnyDrawing& drawing) {
   });
   io.map(drawing.entity_counts, [&](auto& types) { io.map(types, value); });
   io.map(drawing.left_out, value);
-  io.value(drawing.paper_entities);
+  io.value(drawing.paper_entities), io.value(drawing.far_away);
 }
 
 bool is_sound(const Drawing& drawing) {

@@ -86,16 +86,7 @@ void count_left_out(const DrawingFacts& facts, const DrawingGeometry& geometry, 
     if (may_be_empty || entity.handle.empty() || geometry.lines_of.contains(entity.handle)) continue;
     ++drawing.left_out[entity.type];
   }
-  if (geometry.far_away > 0) drawing.left_out["beyond 1e9 m"] = int(geometry.far_away);
-}
-
-void warn_of_left_out(const Drawing& drawing, const std::string& file, Errors& warnings) {
-  if (drawing.left_out.empty()) return;
-  std::vector<std::string> kinds;
-  for (const auto& [type, count] : drawing.left_out) kinds.push_back(fmt::format("{} {}", count, type));
-  warnings.push_back(
-      {fmt::format("not drawn, for it is of kinds that are not read, or damaged: {}", fmt::join(kinds, ", ")),
-       {file, 0, 0}});
+  drawing.far_away = int(geometry.far_away);
 }
 
 /// The unit of a drawing of which nobody but the file has said it, once its extent is known.
@@ -151,7 +142,6 @@ Result<Drawing> parse_drawing(std::string_view bytes, const std::string& file,
   measure_blocks(facts, *geometry, drawing);
   drawing.entity_counts = facts.counts, drawing.paper_entities = facts.paper_entities;
   count_left_out(facts, *geometry, drawing);
-  warn_of_left_out(drawing, file, warnings);
   if (drawing.lines.empty() && drawing.areas.empty() && drawing.texts.empty() && drawing.points.empty())
     return error_at({file, 0, 0}, "nothing is drawn in model space{}",
                     facts.paper_entities > 0

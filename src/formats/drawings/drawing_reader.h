@@ -10,9 +10,9 @@
 namespace parvis::formats {
 
 /// Reads model space. `metres_per_unit`: in place of the unit that the file names. What is left out is in the
-/// drawing's account, and in `warnings`. Errors: no DXF, a cut or damaged one, nothing drawn; a file that
-/// names no unit, with its extent in metres, centimetres and millimetres; one that says inches and lies where
-/// Lambert-93 does in metres.
+/// drawing's account (drawing_account.h); other warnings are added to `warnings`. Errors: no DXF, a cut or
+/// damaged one, nothing drawn; a file that names no unit, with its extent in metres, centimetres and
+/// millimetres; one that says inches and lies where Lambert-93 does in metres.
 Result<Drawing> read_drawing(const std::filesystem::path& file, std::optional<double> metres_per_unit,
                              Errors& warnings);
 

@@ -2,6 +2,7 @@
 #include <map>
 #include <mutex>
 
+#include "formats/drawings/drawing_account.h"
 #include "formats/drawings/drawing_facts.h"
 #include "formats/drawings/drawing_reader.h"
 #include "planning/plan_drawing/drawn_layer.h"
@@ -66,6 +67,7 @@ class KnownDrawings {
       builder.fail(read.errors(), node.where_of("file"));
       return nullptr;
     }
+    for (const Error& warning : formats::account_of(*read, file.string()).warnings()) builder.warn(warning);
     const auto drawing = std::make_shared<const formats::Drawing>(*std::move(read));
     drawings_[key] = drawing;
     return drawing;
@@ -79,13 +81,16 @@ class KnownDrawings {
 /// One object for each layer that draws something, those that are hidden included: showing one loads nothing.
 void add_layers(const scene::Node& node, const PlacedDrawing& placed, scene::SceneBuilder& builder) {
   const double width_m = node.number("line_width");
+  const auto account = std::make_shared<const scene::FileAccount>(
+      formats::account_of(*placed.drawing, node.file("file").string()));
   for (std::size_t i = 0; i < placed.drawing->layers.size(); ++i) {
     const std::string& layer = placed.drawing->layers[i].name;
     const std::string key = fmt::format("{}?plan&unit={}&width={}&layer={}", node.file("file").string(),
                                         node.text("unit"), width_m, i);
     const auto model = builder.shared_model(key, [&] {
-      return std::make_shared<const scene::Model>(
-          layer_model(*placed.drawing, int(i), placed.origin, width_m));
+      scene::Model made = layer_model(*placed.drawing, int(i), placed.origin, width_m);
+      made.account = account;
+      return std::make_shared<const scene::Model>(std::move(made));
     });
     if (model->parts.empty()) continue;
     scene::Object object;
