@@ -126,7 +126,7 @@ class GmlGeometry {
     ring.needs_list = ring.needs_list || is_list_of_tuples || dimensions == 2 ||
                       (!open_.empty() && open_.back().name == "Point");
     std::string_view rest = text_;
-    const std::string blanks = " \t\r\n";
+    const std::string white_space = " \t\r\n";
     const auto next = [&](std::string_view& from, const std::string& separators) {
       const std::size_t begin = std::min(from.find_first_not_of(separators), from.size());
       from.remove_prefix(begin);
@@ -141,18 +141,18 @@ class GmlGeometry {
     };
     if (!is_list_of_tuples) {
       std::size_t count = 0;
-      for (std::string word = next(rest, blanks); !word.empty(); word = next(rest, blanks)) {
+      for (std::string word = next(rest, white_space); !word.empty(); word = next(rest, white_space)) {
         add(word);
         if (++count % dimensions == 0 && dimensions == 2) ring.numbers.emplace_back("0");
       }
       return;
     }
-    const std::string between_tuples = ts_ == " " ? blanks : ts_;
+    const std::string between_tuples = ts_ == " " ? white_space : ts_;
     for (std::string tuple = next(rest, between_tuples); !tuple.empty(); tuple = next(rest, between_tuples)) {
       std::string_view of_tuple = tuple;
       std::size_t count = 0;
-      for (std::string word = next(of_tuple, cs_ + blanks); !word.empty() && count < 3; ++count)
-        add(word), word = next(of_tuple, cs_ + blanks);
+      for (std::string word = next(of_tuple, cs_ + white_space); !word.empty() && count < 3; ++count)
+        add(word), word = next(of_tuple, cs_ + white_space);
       for (; count > 0 && count < 3; ++count) ring.numbers.emplace_back("0");
     }
   }
