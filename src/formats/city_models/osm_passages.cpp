@@ -19,7 +19,7 @@ namespace {
 using glm::dvec2, glm::dvec3;
 using Rings = std::vector<std::vector<dvec3>>;
 
-constexpr double usual_height_m = 3.5, usual_rail_height_m = 5.0;
+constexpr double usual_passage_m = 3.5, usual_rail_height_m = 5.0;
 constexpr double min_passage_m = 2.0, max_passage_m = 12.0;  // of what maxheight may say
 constexpr double passage_beside_road_m = 0.4, passage_rail_half_m = 2.0, passage_path_half_m = 1.2;
 constexpr double beyond_end_m = 0.3;       // of half a passage: for walls that it meets at an angle
@@ -43,7 +43,7 @@ double clearance_m(const OsmTags& tags) {
     if (const auto given = metres_in(tag(tags, key));
         given && *given >= min_passage_m && *given <= max_passage_m)
       return *given;
-  return is_rail(tags) ? usual_rail_height_m : usual_height_m;
+  return is_rail(tags) ? usual_rail_height_m : usual_passage_m;
 }
 
 /// How much of a line from a to b lies inside rings, m.

@@ -10,7 +10,7 @@
 namespace parvis::city {
 namespace {
 
-constexpr int bark = 0, leaves = 1;  // materials
+constexpr int bark = 0, leaf_material = 1;  // materials
 
 /// orders: children, first, length share, angle, upward, wander, steps, sides
 Species species_of(int index) {
@@ -98,7 +98,7 @@ scene::Model make_tree(int species_index, std::uint64_t seed) {
       model, species_index == 0 ? linear_from_srgb8(0x86, 0xA4, 0x4C) : linear_from_srgb8(0x76, 0x98, 0x46),
       random);
   add_part(model, "wood", std::move(wood), bark);
-  add_part(model, "foliage", std::move(green), leaves);
+  add_part(model, "foliage", std::move(green), leaf_material);
   return model;
 }
 
@@ -116,7 +116,7 @@ scene::Model make_medium_tree(float height_m, std::uint64_t seed) {
   add_materials(model, linear_from_srgb8(green[0], green[1], green[2]), random);
   add_part(model, "wood", std::move(wood), bark);
   add_part(model, "foliage",
-           foliage(tree, {sprays, 0.042f * height_m}, {0.0f, 0.0f, 0.55f * height_m}, random), leaves);
+           foliage(tree, {sprays, 0.042f * height_m}, {0.0f, 0.0f, 0.55f * height_m}, random), leaf_material);
   return model;
 }
 
@@ -139,7 +139,7 @@ void plant_small_trees(scene::Model& model, std::span<const TreeSpot> places, st
     append(green, own_green, glm::translate(glm::mat4(1.0f), place.foot));
   }
   add_part(model, "tree wood", std::move(wood), first_material + bark);
-  add_part(model, "tree leaves", std::move(green), first_material + leaves);
+  add_part(model, "tree leaves", std::move(green), first_material + leaf_material);
 }
 
 }  // namespace parvis::city
