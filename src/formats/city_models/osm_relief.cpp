@@ -15,7 +15,7 @@ namespace {
 using glm::dvec2;
 
 constexpr double bridge_clearance_m = 4.5, deck_depth_m = 0.9;  // below a bridge, and of its deck
-constexpr double low_bridge_m = 1.0;                      // over water
+constexpr double low_bridge_m = 1.0;                            // over water
 constexpr double road_slope = 0.06, rail_slope = 0.03;
 constexpr int max_layer = 4;
 constexpr double max_steepness = 2.5;   // of ramps to portals, of the usual slope

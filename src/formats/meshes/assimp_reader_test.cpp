@@ -9,7 +9,7 @@
 namespace parvis::scene {
 namespace {
 
-const char* const quad =
+const char* const quad_obj =
     "mtllib m.mtl\no plate\nusemtl red\nv 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nvt 0 0\nvt 1 1\nf 1/1 2/2 3/2 "
     "4/1\n";
 
@@ -17,7 +17,8 @@ TEST(Assimp, AnObjIsTurnedToZUpAndKeepsItsNames) {
   const TestFolder folder;
   folder.write("m.mtl", "newmtl red\nKd 1 0 0\nmap_Kd missing.png\n");
   Errors warnings;
-  const Result<Model> model = read_with_assimp(folder.write("q.obj", quad), formats::UpAxis::file, warnings);
+  const Result<Model> model =
+      read_with_assimp(folder.write("q.obj", quad_obj), formats::UpAxis::file, warnings);
   ASSERT_TRUE(model) << to_string(model.errors());
   ASSERT_EQ(model->parts.size(), 1u);
   EXPECT_EQ(model->parts[0].object, "plate");
@@ -42,7 +43,7 @@ TEST(Assimp, DamagedTextNeverCrashes) {
   folder.write("m.mtl", "newmtl red\nKd 1 0 0\n");
   Random random(5);
   for (int round = 0; round < 300; ++round) {
-    std::string text = quad;
+    std::string text = quad_obj;
     for (int change = 0; change <= round % 4; ++change)
       text[std::size_t(random.index(int(text.size())))] = char(random.next());
     Errors warnings;
@@ -118,14 +119,14 @@ TEST(Assimp, WhatIsLeftOutIsNamed) {
   folder.write("m.mtl", "newmtl red\nKd 1 0 0\nmap_Bump relief.png\n");
   Errors warnings;
   const Result<formats::FileContent> content = read_assimp_content(
-      folder.write("q.obj", std::string(quad) + "l 1 2\n"), formats::UpAxis::file, warnings);
+      folder.write("q.obj", std::string(quad_obj) + "l 1 2\n"), formats::UpAxis::file, warnings);
   ASSERT_TRUE(content) << to_string(content.errors());
   EXPECT_EQ(content->account.count(Fate::left_out, "textures"), 1u);
   EXPECT_EQ(content->account.count(Fate::left_out, "primitives"), 1u);
   EXPECT_EQ(content->account.count(Fate::left_out), 2u);
 
   const Result<formats::FileContent> bare =
-      read_assimp_content(folder.write("inner/q.obj", std::string(quad) + "cstype bspline\ndeg 3\n"),
+      read_assimp_content(folder.write("inner/q.obj", std::string(quad_obj) + "cstype bspline\ndeg 3\n"),
                           formats::UpAxis::file, warnings);
   ASSERT_TRUE(bare) << to_string(bare.errors());
   EXPECT_EQ(bare->account.count(Fate::left_out, "material libraries"), 1u);

@@ -48,7 +48,7 @@ TEST(ModelAssembly, MountedModelsStandOnTheirNode) {
 TEST(ModelAssembly, PlacedTurnsThenScalesThenMoves) {
   Model model;
   model.materials = {{}};
-  model.parts = {{.object = "", .mesh = {{{1, 0, 0}, {2, 0, 0}, {1, 0, 1}}, {}, {}, {0, 1, 2}}}};
+  model.parts = {{.object = "", .mesh = {{{1, 0, 0}, {2, 0, 0}, {1, 0, 1}}, {}, {}, {0, 1, 2}, {}, {}}}};
   const glm::quat left = glm::angleAxis(glm::half_pi<float>(), glm::vec3(0, 0, 1));
   const Bounds box = bounds(placed(model, {10, 0, 0}, left, 2.0f));
   EXPECT_LT(glm::length(box.min - glm::vec3(10, 2, 0)), 1e-5f);

@@ -209,21 +209,23 @@ TEST(Terrain, SamplesThatAMaskLeavesOutAreHoles) {
     const GDALRasterBandH band = GDALGetRasterBand(grid, 1);
     GDALDeleteRasterNoDataValue(band);
     GDALCreateMaskBand(band, GMF_PER_DATASET);
-    std::vector<std::uint8_t> mask(std::size_t(width) * height, 255);
-    for (int row = 0; row < height; ++row)
-      for (int column = 0; column < width / 2; ++column) mask[std::size_t(row * width + column)] = 0;
-    EXPECT_EQ(GDALRasterIO(GDALGetMaskBand(band), GF_Write, 0, 0, width, height, mask.data(), width, height,
-                           GDT_Byte, 0, 0),
+    std::vector<std::uint8_t> mask(std::size_t(grid_width) * grid_height, 255);
+    for (int row = 0; row < grid_height; ++row)
+      for (int column = 0; column < grid_width / 2; ++column)
+        mask[std::size_t(row * grid_width + column)] = 0;
+    EXPECT_EQ(GDALRasterIO(GDALGetMaskBand(band), GF_Write, 0, 0, grid_width, grid_height, mask.data(),
+                           grid_width, grid_height, GDT_Byte, 0, 0),
               CE_None);
   });
   Errors warnings;
   const Result<Model> model = read_terrain(file, std::nullopt, warnings);
   ASSERT_TRUE(model) << to_string(model.errors());
-  EXPECT_NEAR(bounds(*model).size().x, 2.0f * (width / 2 - 1), 1e-3f) << "the eastern half alone";
+  EXPECT_NEAR(bounds(*model).size().x, 2.0f * (grid_width / 2 - 1), 1e-3f) << "the eastern half alone";
   FileAccount account("GeoTIFF");
   ASSERT_TRUE(read_terrain(file, std::nullopt, warnings, nullptr, {}, &account));
-  EXPECT_EQ(account.count(Fate::used, "samples"), std::size_t(width / 2 * height)) << account.text();
-  EXPECT_EQ(account.count(Fate::unneeded, "samples"), std::size_t(width / 2 * height));
+  EXPECT_EQ(account.count(Fate::used, "samples"), std::size_t(grid_width / 2 * grid_height))
+      << account.text();
+  EXPECT_EQ(account.count(Fate::unneeded, "samples"), std::size_t(grid_width / 2 * grid_height));
 }
 
 TEST(Terrain, EverySecondSampleStandsAtItsOwnPlace) {

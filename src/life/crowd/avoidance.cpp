@@ -74,8 +74,8 @@ std::size_t best_in(std::span<const VelocityHalfPlane> planes, float max_speed, 
 
 /// Where no velocity is in all planes: the one whose greatest violation of the planes from `failed` on is
 /// least (a linear programme in three dimensions, plane by plane).
-void violate_least(std::span<const VelocityHalfPlane> planes, std::size_t hard, std::size_t failed,
-                   float max_speed, glm::vec2& best) {
+void minimize_violation(std::span<const VelocityHalfPlane> planes, std::size_t hard, std::size_t failed,
+                        float max_speed, glm::vec2& best) {
   float violation = 0.0f;
   std::array<VelocityHalfPlane, max_planes> projected;
   for (std::size_t i = std::max(failed, hard); i < planes.size(); ++i) {
@@ -143,7 +143,8 @@ glm::vec2 nearest_velocity(std::span<const VelocityHalfPlane> planes, std::size_
   planes = planes.first(std::min(planes.size(), max_planes));
   glm::vec2 best;
   const std::size_t failed = best_in(planes, max_speed, {preferred}, best);
-  if (failed < planes.size()) violate_least(planes, std::min(hard, planes.size()), failed, max_speed, best);
+  if (failed < planes.size())
+    minimize_violation(planes, std::min(hard, planes.size()), failed, max_speed, best);
   return best;
 }
 

@@ -11,7 +11,7 @@ constexpr float corner_m = 0.5f;      // at which a corner is reached
 constexpr float own_lean_m = 0.7f;    // corners are passed wider by up to it
 constexpr float queue_lean_m = 0.4f;  // and by so much more at each look around in a queue
 constexpr float queue_speed = 0.6f;   // of the free speed
-constexpr std::uint32_t turns = 4;    // a part of the people looks about anew in each step
+constexpr std::uint32_t turns = 4;    // a part of the people looks round in each step
 constexpr float lost_s = 4.0f;        // blocked for so long: another way is sought
 // Weidmann 1993: horizontal speeds on stairs.
 constexpr float stair_slope = 0.35f, up_m_s = 0.61f, down_m_s = 0.694f;

@@ -55,12 +55,12 @@ class Crowd {
   /// The ground has changed between `low` and `high` (in plan): whose way it crosses finds another one.
   void change_ground(const WalkingGround& ground, glm::vec2 low, glm::vec2 high);
 
-  std::size_t size() const { return walkers_.size(); }
-  const Walkers& walkers() const { return walkers_; }
-  const std::vector<PersonOnTheWay>& people() const { return people_; }
-  const std::vector<Destination>& destinations() const { return destinations_; }
-  const NavMesh& mesh() const { return mesh_; }
-  const Walls& walls() const { return walls_; }
+  std::size_t size() const { return walkers_.size(); }                            ///< people
+  const Walkers& walkers() const { return walkers_; }                             ///< where they are
+  const std::vector<PersonOnTheWay>& people() const { return people_; }           ///< as in walkers()
+  const std::vector<Destination>& destinations() const { return destinations_; }  ///< in the order added
+  const NavMesh& mesh() const { return mesh_; }                                   ///< on which they walk
+  const Walls& walls() const { return walls_; }                                   ///< its borders
 
  private:
   void find_walls();

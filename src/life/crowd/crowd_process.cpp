@@ -15,7 +15,7 @@ constexpr float crowd_step_s = float(double(clock_steps) * action::step_s);
 constexpr int destinations = 64;      // places that people walk between
 constexpr int tries_per_person = 12;  // to find a place from which a way leads on
 constexpr int warm_up_steps = 200;    // all start at rest
-constexpr float mean_speed = 1.34f, speed_deviation = 0.26f, least_speed = 0.6f,
+constexpr float mean_speed = 1.34f, speed_deviation = 0.26f, min_speed = 0.6f,
                 max_speed = 2.0f;  // Weidmann 1993
 constexpr float longest_rest_s = 12.0f,
                 resting = 0.35f;   // the fraction of arrivals after which somebody rests
@@ -47,7 +47,7 @@ void CrowdProcess::populate(const CrowdDemand& demand) {
   int missing = 0;
   for (int p = 0; p < demand.people; ++p) {
     Random random(demand.seed, std::uint64_t(p) + 1);
-    const float speed = std::clamp(mean_speed + speed_deviation * normal(random), least_speed, max_speed);
+    const float speed = std::clamp(mean_speed + speed_deviation * normal(random), min_speed, max_speed);
     const float radius = shoulders_m + shoulder_range_m * random.uniform(-1.0f, 1.0f);
     std::optional<std::size_t> person;
     for (int t = 0; t < tries_per_person && !person; ++t)
@@ -110,8 +110,8 @@ void CrowdProcess::walk() {
     const glm::vec2 velocity = walkers.velocity[p];
     const float speed = glm::length(velocity);
     it.walked_m += double(speed * crowd_step_s);
-    constexpr float least_turning_speed = 0.15f;  // who is pushed about does not turn round
-    const glm::vec2 towards = speed > least_turning_speed ? velocity : walkers.aim[p];
+    constexpr float min_turning_speed = 0.15f;  // who is pushed about does not turn round
+    const glm::vec2 towards = speed > min_turning_speed ? velocity : walkers.aim[p];
     if (towards == glm::vec2(0.0f)) continue;
     const float turn = wrapped(std::atan2(towards.y, towards.x) - it.heading),
                 most = turn_rate * crowd_step_s;

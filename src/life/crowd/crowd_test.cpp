@@ -232,7 +232,7 @@ TEST(NavMesh, PavementsArePreferredToRoads) {
 TEST(NavMesh, PlacesLieOutsideOfClosedHouses) {
   TestGround ground;
   ground.rectangle({0, 0}, {40, 40});
-  ground.block({10, 10}, {25, 25}, 9.0f);  // hollow, on the same ground
+  ground.block({10, 10}, {25, 25}, 9.0f);  // open inside, on the same ground
   const Result<NavMesh> mesh = NavMesh::create(ground);
   ASSERT_TRUE(mesh);
   Random random(1);

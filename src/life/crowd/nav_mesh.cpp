@@ -41,11 +41,11 @@ using Contours = Owned<rcContourSet, rcFreeContourSet>;
 using Polygons = Owned<rcPolyMesh, rcFreePolyMesh>;
 using Details = Owned<rcPolyMeshDetail, rcFreePolyMeshDetail>;
 
-unsigned char area_of(const WalkingGround& ground, std::size_t triangle, float least_up) {
+unsigned char area_of(const WalkingGround& ground, std::size_t triangle, float min_up) {
   const glm::vec3* c = &ground.corners[3 * triangle];
   const glm::vec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
   const float length = glm::length(normal);
-  if (!(length > 0.0f) || std::abs(normal.z) < least_up * length) return RC_NULL_AREA;
+  if (!(length > 0.0f) || std::abs(normal.z) < min_up * length) return RC_NULL_AREA;
   switch (ground.kinds[triangle]) {
     case GroundKind::floor:
       return floor_area;
@@ -94,7 +94,7 @@ TileBytes make_tile(const WalkingGround& ground, std::span<const std::uint32_t> 
   std::vector<float> vertices;
   std::vector<int> indices;
   std::vector<unsigned char> areas;
-  const float least_up = std::cos(glm::radians(options.max_slope_deg));
+  const float min_up = std::cos(glm::radians(options.max_slope_deg));
   for (const std::uint32_t t : triangles) {
     for (std::size_t c = 0; c < 3; ++c) {
       const glm::vec3 p = ground.corners[3 * std::size_t(t) + c];
@@ -102,7 +102,7 @@ TileBytes make_tile(const WalkingGround& ground, std::span<const std::uint32_t> 
       indices.push_back(int(vertices.size() / 3));
       for (const float v : to_recast(p)) vertices.push_back(v);
     }
-    areas.push_back(area_of(ground, t, least_up));
+    areas.push_back(area_of(ground, t, min_up));
   }
   // The lattice of heights is the world's.
   low_z = (std::floor(low_z / cell_height_m) - 1.0f) * cell_height_m;
@@ -123,11 +123,11 @@ TileBytes make_tile(const WalkingGround& ground, std::span<const std::uint32_t> 
   rcFilterLedgeSpans(&context, headroom, climb_cells, *solid);
   rcFilterWalkableLowHeightSpans(&context, headroom, *solid);
   Compact compact(rcAllocCompactHeightfield());
-  constexpr int least_region = 16, merged_region = 400;
+  constexpr int min_region = 16, merged_region = 400;
   if (!rcBuildCompactHeightfield(&context, headroom, climb_cells, *solid, *compact)) return {};
   mark_roads(context, ground.roads, *compact);
   if (!rcErodeWalkableArea(&context, radius_cells, *compact) || !rcBuildDistanceField(&context, *compact) ||
-      !rcBuildRegions(&context, *compact, border, least_region, merged_region))
+      !rcBuildRegions(&context, *compact, border, min_region, merged_region))
     return {};
   Contours contours(rcAllocContourSet());
   Polygons polygons(rcAllocPolyMesh());
@@ -393,12 +393,12 @@ std::vector<Wall> NavMesh::borders() const {
               open.emplace_back(tile->links[link].bmin / 255.0f, tile->links[link].bmax / 255.0f);
           std::ranges::sort(open, {}, &glm::vec2::x);
           float at = 0.0f;
-          constexpr float least = 0.02f;
+          constexpr float min_gap = 0.02f;
           for (const glm::vec2 part : open) {
-            if (part.x > at + least) add(glm::mix(a, b, at), glm::mix(a, b, part.x));
+            if (part.x > at + min_gap) add(glm::mix(a, b, at), glm::mix(a, b, part.x));
             at = std::max(at, part.y);
           }
-          if (at < 1.0f - least) add(glm::mix(a, b, at), b);
+          if (at < 1.0f - min_gap) add(glm::mix(a, b, at), b);
         }
       }
     }

@@ -4,8 +4,8 @@
 // Recast measures heights in cells from the lowest point of its input, so that whether a kerb counts as a
 // step may change with what lies below it. Here the cells are those of one lattice of the world, and the
 // climb has a margin of a cell: steps up to 0.2 m connect and steps from 0.31 m on do not, at every level of
-// the street. The mesh is made of tiles: memory is bounded by the tile, and an edit makes anew those that it
-// touches.
+// the street. The mesh is made of tiles: memory is bounded by the tile, and an edit builds again those that
+// it touches.
 #pragma once
 
 #include <cstdint>
@@ -66,7 +66,7 @@ class NavMesh {
   /// The shortest way by cost. Nothing where start or goal lies farther than a metre from the mesh, or there
   /// is no way.
   std::optional<Way> way(glm::vec3 from, glm::vec3 to) const;
-  /// Makes the tiles anew that the box from `low` to `high` (in plan) touches, from what `ground` holds there
+  /// Rebuilds the tiles that the box from `low` to `high` (in plan) touches, from what `ground` holds there
   /// now.
   void update(const WalkingGround& ground, glm::vec2 low, glm::vec2 high);
   /// The place on the mesh nearest to `p`, within `reach_m` in plan; nothing where there is none.

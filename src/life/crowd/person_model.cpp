@@ -10,7 +10,7 @@ namespace {
 
 constexpr int samples = 48;            // of a cycle
 constexpr float foot_fraction = 0.2f;  // of the height, below which nodes belong to feet
-constexpr float least_step_m = 0.1f;   // less is no walking
+constexpr float min_step_m = 0.1f;     // less is no walking
 
 }  // namespace
 
@@ -34,7 +34,7 @@ Result<PersonModel> person_model(std::shared_ptr<const scene::Model> model) {
   float step_m = 0.0f;
   for (std::size_t n = 0; n < nodes; ++n)
     if (mean_z[n] < foot_fraction * height) step_m = std::max(step_m, front[n] - rear[n]);
-  if (step_m < least_step_m)
+  if (step_m < min_step_m)
     return error(
         "a person's model does not walk in its animation \"{}\": nothing near the ground moves forward and "
         "back along "

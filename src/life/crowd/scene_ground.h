@@ -1,4 +1,4 @@
-// The ground of a scene as people see it: what stands still, and where vehicles drive.
+// The ground of a scene as people see it: static geometry, and where vehicles drive.
 #pragma once
 
 #include "life/crowd/nav_mesh.h"

@@ -35,7 +35,7 @@ class Walls {
 
   /// Indices of the walls that may lie within the reach of a place.
   std::span<const std::uint32_t> near(glm::vec2 place) const;
-  const std::vector<Wall>& all() const { return walls_; }
+  const std::vector<Wall>& all() const { return walls_; }  ///< in the order given
   /// Does the way from `from` to `to` cross a wall at this height?
   bool crosses(glm::vec2 from, glm::vec2 to, float height_m) const;
 
