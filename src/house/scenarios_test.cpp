@@ -11,7 +11,7 @@
 namespace parvis::house {
 namespace {
 
-constexpr int width = 320, height = 180;
+constexpr int scenario_width = 320, scenario_height = 180;
 constexpr int settling_frames = 3;  // coarse shadow maps and reflections follow over some frames
 
 /// A project by day, and the same evening: objects that go and come, light, the sky.
@@ -46,7 +46,8 @@ TEST(Scenarios, ThereAndBackGivesTheSamePictureOfThePapersCity) {
   const auto picture_of = [&](const std::string& scenario) {
     const Status chosen = (*stage)->choose_scenario(scenario);
     EXPECT_TRUE(chosen) << to_string(chosen.errors());
-    for (int frame = 0; frame < settling_frames; ++frame) (*stage)->draw(*camera, width, height);
+    for (int frame = 0; frame < settling_frames; ++frame)
+      (*stage)->draw(*camera, scenario_width, scenario_height);
     return (*stage)->picture().pixels;
   };
   const auto base = picture_of(""), project_by_day = picture_of("project"), evening = picture_of("evening");

@@ -218,7 +218,7 @@ TEST(SunStudy, LandToTheHorizonIsNoPartOfThePlace) {
   part.mesh.indices = {0, 1, 2, 0, 2, 3};
   land->parts.push_back(part);
   scene.objects.emplace_back().model = land;
-  const SunStudyOptions options{.period = equinox, .cell_m = 2.0, .area = {}, .has_facades = false};
+  const SunStudyOptions options{.period = at_equinox, .cell_m = 2.0, .area = {}, .has_facades = false};
   EXPECT_FALSE(study_sun(scene, options)) << "the control: 81 million cells";
   scene.data<scene::ItemsOf<scene::Surroundings>>().items.push_back({land});
   const Result<SunStudy> study = study_sun(scene, options);

@@ -5,14 +5,10 @@
 #include <glm/gtc/constants.hpp>
 
 #include "base/random.h"
+#include "base/test_directions.h"
 
 namespace parvis::shading {
 namespace {
-
-vec3 random_direction(Random& random) {
-  const float z = random.uniform(-1, 1), azimuth = random.uniform(0, 2 * glm::pi<float>());
-  return {std::sqrt(1 - z * z) * std::cos(azimuth), std::sqrt(1 - z * z) * std::sin(azimuth), z};
-}
 
 vec3 irradiance(const SkyLight& sky, vec3 normal) {
   vec3 sh[9];

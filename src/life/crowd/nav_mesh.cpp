@@ -162,8 +162,8 @@ TileBytes make_tile(const WalkingGround& ground, std::span<const std::uint32_t> 
 
 struct NavMesh::Data {
   NavMeshOptions options;
-  Owned<dtNavMesh, dtFreeNavMesh> mesh{dtAllocNavMesh()};
-  Owned<dtNavMeshQuery, dtFreeNavMeshQuery> query{dtAllocNavMeshQuery()};
+  std::unique_ptr<dtNavMesh, void (*)(dtNavMesh*)> mesh{dtAllocNavMesh(), dtFreeNavMesh};
+  std::unique_ptr<dtNavMeshQuery, void (*)(dtNavMeshQuery*)> query{dtAllocNavMeshQuery(), dtFreeNavMeshQuery};
   dtQueryFilter filter;
   glm::vec2 corner{0.0f};  ///< of the first tile, Recast's x and z
   glm::ivec2 tiles{0};

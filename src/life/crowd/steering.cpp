@@ -19,12 +19,12 @@ constexpr float max_behind_m =
 constexpr int separations = 3;  // rounds of pushing apart
 constexpr float slow = 0.2f, patience_s = 1.0f;  // of the free speed; until somebody is blocked
 constexpr float free_way_m = 1e9f;
-constexpr float along_horizon_s = 0.4f;                 // for which those are cleared who walk the same way
-constexpr float content = 0.9f;                         // of the free speed: no other way is sought
-constexpr float reluctance = 1.08f;                     // to turn: by so much another way must be faster
-constexpr std::array turns = {0.3f, 0.6f, 1.0f, 1.5f};  // radians from the aim
-constexpr float widest_turn = 0.7f;                     // of who is not blocked
-constexpr float blocked_gain = 0.5f;                    // of getting on at all, for who is
+constexpr float along_horizon_s = 0.4f;  // for which those are cleared who walk the same way
+constexpr float content = 0.9f;          // of the free speed: no other way is sought
+constexpr float reluctance = 1.08f;      // to turn: by so much another way must be faster
+constexpr std::array turns_rad = {0.3f, 0.6f, 1.0f, 1.5f};  // radians from the aim
+constexpr float widest_turn = 0.7f;                         // of who is not blocked
+constexpr float blocked_gain = 0.5f;                        // of getting on at all, for who is
 
 glm::vec2 turned_right(glm::vec2 v, float angle) {
   const float c = std::cos(angle), s = std::sin(angle);
@@ -154,7 +154,7 @@ glm::vec2 Steering::wanted_velocity(const Walkers& walkers, std::size_t number, 
   const float first_side = is_blocked && std::fmod(blocked_s, 4.0f) > 2.0f ? -1.0f : 1.0f;
   glm::vec2 best = speed * aim;
   float progress = speed * reluctance;
-  for (const float turn : turns) {
+  for (const float turn : turns_rad) {
     if (turn > widest_turn && !is_blocked) break;
     for (const float side : {first_side, -first_side}) {
       const glm::vec2 way = turned_right(aim, side * turn);
