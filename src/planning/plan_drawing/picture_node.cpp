@@ -85,7 +85,9 @@ Result<scene::Model> picture_model(const std::filesystem::path& file, double uni
   model.name = file.stem().string();
   model.nodes.front().name = model.name;
   model.origin = place.origin();
-  model.textures.push_back({model.name, *std::move(image), true, false});
+  scene::Texture texture{.name = model.name, .image = *std::move(image)};
+  texture.set_repeats(false);
+  model.textures.push_back(std::move(texture));
   scene::Material material;
   material.name = model.name, material.base_colour = glm::vec3(1.0f), material.roughness = 1.0f;
   material.base_colour_texture = 0;

@@ -16,7 +16,7 @@ using Search = ReflectionSearch<Ellipsoid>;
 using Task = Search::ReflectionTask;
 using Point = Search::ReflectionPoint;
 
-constexpr float min_error = 2e-9f;  // 0.005 degrees
+constexpr float tolerated_error = 2e-9f;  // 0.005 degrees
 constexpr int newton_steps = 12;
 constexpr int patch_steps = 20;       // of a search over a patch
 constexpr float flag_angle = 0.005f;  // radians, 0.3 degrees: a point beyond it is not drawn
@@ -31,11 +31,11 @@ Task chance_task(const Ellipsoid& ellipsoid, Random& random, float reach) {
 
 Point newton(Search& search, const Task& task) {
   return search.search_by_newton(task, search.first_direction(task), true, search.free_growth, newton_steps,
-                                 min_error);
+                                 tolerated_error);
 }
 
 Point midpoint(Search& search, const Task& task, int iterations) {
-  return search.search_by_midpoint(task, search.first_direction(task), iterations, min_error);
+  return search.search_by_midpoint(task, search.first_direction(task), iterations, tolerated_error);
 }
 
 double true_angle(const Ellipsoid& ellipsoid, const Point& point, const Task& task) {
@@ -141,7 +141,7 @@ GrazingErrors grazing_errors(const Ellipsoid& ellipsoid, double min_cosine, int 
     const double cosine = min_cosine * std::pow(10.0, double(random.uniform()));
     const auto [truth, task] = grazing_task(ellipsoid, random, cosine);
     const Point point = search.search_by_newton(task, search.first_direction(task), true, search.free_growth,
-                                                steps, min_error);
+                                                steps, tolerated_error);
     if (point.angle < flag_angle)
       errors.off.push_back(glm::distance(glm::dvec3(point.position), truth));
     else
@@ -249,10 +249,11 @@ TEST(NewtonSearch, AWarmStartIsNearlyThere) {
     const Point before = newton(search, task);
     task.viewer += 0.02f * random_direction(random);  // a frame later
     task.vertex += 0.02f * random_direction(random);
-    done += search.search_by_newton(task, before.direction, true, search.free_growth, 3, min_error).angle <
-                    flag_angle
-                ? 1
-                : 0;
+    done +=
+        search.search_by_newton(task, before.direction, true, search.free_growth, 3, tolerated_error).angle <
+                flag_angle
+            ? 1
+            : 0;
   }
   EXPECT_GT(done, 290) << "all but those at the rim of what the viewer sees";
 }
@@ -271,7 +272,7 @@ double from_caustic(glm::dvec3 position, const Task& task) {
 // reflection points. Just beyond a caustic, where two of them have met and gone, the angle has a minimum that
 // is not 0: a search ends there and says its angle, which is drawn if it is small.
 TEST(NewtonSearch, InAConcaveBallEveryPointFoundIsARootOrAtACausticAndAllCanBeFound) {
-  constexpr double converged = 1.5e-4;  // radians; min_error is 0.9e-4
+  constexpr double converged = 1.5e-4;  // radians; tolerated_error is 0.9e-4
   const Ellipsoid concave{vec3(1), true};
   Search search{concave};
   std::size_t maximum = 0;
@@ -290,7 +291,7 @@ TEST(NewtonSearch, InAConcaveBallEveryPointFoundIsARootOrAtACausticAndAllCanBeFo
       std::vector<bool> found(truth.size());
       for (int start = 0; start < 300; ++start) {
         const Point point = search.search_by_newton(task, random_direction(random), false, search.free_growth,
-                                                    patch_steps, min_error);
+                                                    patch_steps, tolerated_error);
         if (!(point.angle < 1e-3f)) continue;
         const glm::dvec3 p(point.position);
         double nearest = 10.0;
@@ -320,7 +321,7 @@ TEST(MidpointSearch, ConvergesOnABallWhoseViewerAndVertexAreFar) {
   float last = 1.0f;
   for (const int iterations : {3, 5, 7, 9}) {
     const float angle =
-        search.search_by_midpoint(task, normalize(vec3(1, 0.3f, 3)), iterations, min_error).angle;
+        search.search_by_midpoint(task, normalize(vec3(1, 0.3f, 3)), iterations, tolerated_error).angle;
     EXPECT_LT(angle, last);
     last = angle;
   }
@@ -435,9 +436,9 @@ TEST(Searches, DoNotDependOnSizeAndPlace) {
     const ReflectionSearch<Moved>::ReflectionTask far_task{at(task.viewer), at(task.vertex), moved.centre};
     const vec3 start = search.first_direction(task);
     const auto by_newton =
-        other.search_by_newton(far_task, start, true, other.free_growth, newton_steps, min_error);
+        other.search_by_newton(far_task, start, true, other.free_growth, newton_steps, tolerated_error);
     EXPECT_LT(distance(by_newton.position, at(newton(search, task).position)), 0.02f * moved.scale);
-    const auto by_midpoint = other.search_by_midpoint(far_task, start, 1, min_error);
+    const auto by_midpoint = other.search_by_midpoint(far_task, start, 1, tolerated_error);
     EXPECT_LT(distance(by_midpoint.position, at(midpoint(search, task, 1).position)), 0.001f * moved.scale);
   }
 }

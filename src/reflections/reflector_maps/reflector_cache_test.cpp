@@ -69,7 +69,7 @@ class ReflectorCacheTest : public testing::Test {
 
 TEST(ReflectorFile, WhatIsWrittenIsRead) {
   const Reflector written = small_reflector();
-  const std::optional<Reflector> read = reflector_of(bytes_of(written));
+  const std::optional<Reflector> read = reflector_maps::reflector_of(bytes_of(written));
   ASSERT_TRUE(read);
   expect_equal(*read, written);
 }
@@ -77,14 +77,14 @@ TEST(ReflectorFile, WhatIsWrittenIsRead) {
 TEST(ReflectorFile, CutShortItIsRefused) {
   const std::string whole = bytes_of(small_reflector());
   for (std::size_t length = 0; length < whole.size(); length += 1 + whole.size() / 50)
-    EXPECT_FALSE(reflector_of(whole.substr(0, length))) << length;
+    EXPECT_FALSE(reflector_maps::reflector_of(whole.substr(0, length))) << length;
 }
 
 TEST(ReflectorFile, WithIndicesThatLieItIsRefused) {
   const auto is_read = [&](const auto& spoil) {
     Reflector reflector = small_reflector();
     spoil(reflector);
-    return bool(reflector_of(bytes_of(reflector)));
+    return bool(reflector_maps::reflector_of(bytes_of(reflector)));
   };
   EXPECT_TRUE(is_read([](Reflector&) {}));
   EXPECT_FALSE(is_read([](Reflector& r) { r.mesh.mesh.indices[0] = ~0u; }));
