@@ -17,7 +17,9 @@ std::string lower(std::string text) {
 
 std::string shortened(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.size() <= longest_quote ? text : text.substr(0, longest_quote) + "...";
+  if (text.size() <= longest_quote) return text;
+  text.resize(longest_quote);
+  return text += "...";
 }
 
 std::string name_of(const Node& node) { return node.schema->find("name") ? node.text("name") : ""; }
