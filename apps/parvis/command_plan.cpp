@@ -2,6 +2,8 @@
 // true scale, DXF, CSV.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -100,7 +102,19 @@ Status write_drawings(const Arguments& arguments, const house::Play& play) {
   return Done{};
 }
 
+bool asks_for_nothing(const Arguments& a) {
+  return a.commands.empty() && !a.lists_objects && !a.lists_kinds && !a.keeps_journal &&
+         std::ranges::all_of(
+             std::array{&a.command_file, &a.import_json, &a.json, &a.output, &a.pdf, &a.dxf, &a.csv},
+             [](const std::filesystem::path* file) { return file->empty(); });
+}
+
 Status plan(const Arguments& arguments) {
+  if (asks_for_nothing(arguments))
+    return error(
+        "nothing is asked for: give commands (--do, --file), --list, --kinds, or a file to write (-o, "
+        "--json, "
+        "--pdf, --dxf, --csv)");
   if (Status status = arguments.scene.expect_one_scenario(); !status) return status;
   Result<house::Play> play = arguments.scene.open_play();
   if (!play) return play.errors();

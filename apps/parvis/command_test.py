@@ -392,7 +392,7 @@ class HoursOfSun(BeforeAMirror):
     def test_the_sun_of_a_place_and_day_without_a_scene(self):
         done = run("sun", "--place", "43.7,7.26", "--clock", "2", "--date", "2026-06-21")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("2026-06-21: sunrise 05:48, sunset 21:15, at UTC+2", done.stdout)
+        self.assertIn("2026-06-21: sunrise 05:49, sunset 21:16, at UTC+2", done.stdout)
         self.assertRegex(done.stdout, r"13:3\d +180\.\d+ +69\.\d+  highest")
         self.assertEqual(run("sun", "--date", "2026-06-21").returncode, 2)
         self.assertEqual(run("sun", "--place", "43.7,7.26").returncode, 1)
@@ -791,7 +791,7 @@ class Plans(InAFolder):
 |0 RAY|5 C|8 BATI|10 0|20 0|11 1|21 0|0 ENDSEC|0 EOF"""
 
     def write_scene(self, unit="6"):
-        groups = self.DRAWING.replace("\n", "").replace("UNIT", unit).split("|")
+        groups = self.DRAWING.replace("\n", "").replace("70 UNIT", f"70 {unit}").split("|")
         text = "".join("\n".join(group.split(" ", 1)) + "\n" for group in groups)
         (self.folder / "square.dxf").write_text(text)
         scene = self.folder / "square.xp"

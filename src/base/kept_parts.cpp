@@ -13,14 +13,15 @@ bool is_link(const fs::path& path) {
   return fs::is_symlink(fs::symlink_status(path, code));
 }
 
-/// Checks that what lies at `file` may be replaced: nothing, or a part of this kind.
-Status check_place(const fs::path& folder, const fs::path& file, const SealedKind& kind) {
+/// Checks that what lies at `file` may be replaced: nothing, a part of this kind or, in a folder of the
+/// program's, any file.
+Status check_place(const fs::path& folder, const fs::path& file, const SealedKind& kind, FolderOf owner) {
   for (const fs::path& place : {folder, file})
     if (is_link(place))
       return error("{}: is a link; nothing is stored there. Remove it, or choose another output",
                    place.string());
   std::error_code code;
-  if (!fs::exists(file, code)) return Done{};
+  if (owner == FolderOf::program || !fs::exists(file, code)) return Done{};
   const Result<std::string> front = read_front(file, kind.magic.size());
   if (!front) return front.errors();
   // A program that was killed may have left an empty one; versions differ in the last character.
@@ -57,7 +58,7 @@ std::optional<std::string> KeptParts::find(const std::string& part, std::uint64_
 Status KeptParts::keep(const std::string& part, std::uint64_t key, std::string_view content) const {
   if (!keeps_parts()) return Done{};
   const fs::path path = file(part);
-  if (Status status = check_place(folder_, path, kind_); !status) return status;
+  if (Status status = check_place(folder_, path, kind_, owner_); !status) return status;
   std::string bytes;
   bytes.reserve(sizeof key + content.size());
   append_value(bytes, key);
@@ -71,7 +72,7 @@ void KeptParts::remove(const std::set<fs::path>& kept) const {
   std::vector<fs::path> parts;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_, code))
     if (entry.path().extension() == extension_ && !kept.contains(entry.path()) &&
-        check_place(folder_, entry.path(), kind_))
+        check_place(folder_, entry.path(), kind_, owner_))
       parts.push_back(entry.path());
   for (const fs::path& part : parts) fs::remove(part, code);
   fs::remove(folder_, code);  // fails where something else lies in it

@@ -19,17 +19,21 @@ namespace parvis {
 /// Parts of work that goes on where it was interrupted.
 inline constexpr SealedKind unfinished_work{"PVPART_1", "part of unfinished work"};
 
+/// Whose folder parts lie in: one that the program made for them alone, where whatever has a part's name may
+/// be replaced, or one of the user's, where a file that is no part stays as it is.
+enum class FolderOf { program, user };
+
 /// A folder of parts. Nothing is stored, found or removed through a link; several processes may store the
 /// same part at the same time.
 class KeptParts {
  public:
   /// Stores nothing and finds nothing.
   KeptParts() = default;
-  /// Stores parts in `folder`, which the first of them creates; an empty path stores nothing. The texts of
-  /// `kind` and `extension` must be static.
-  explicit KeptParts(std::filesystem::path folder, const SealedKind& kind = unfinished_work,
-                     std::string_view extension = ".part")
-      : folder_(std::move(folder)), kind_(kind), extension_(extension) {}
+  /// Stores parts in `folder`, which the first of them creates; an empty path stores nothing.
+  explicit KeptParts(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// The same of another kind. The texts of `kind` and `extension` must be static.
+  KeptParts(std::filesystem::path folder, const SealedKind& kind, std::string_view extension, FolderOf owner)
+      : folder_(std::move(folder)), kind_(kind), extension_(extension), owner_(owner) {}
 
   bool keeps_parts() const { return !folder_.empty(); }            ///< false: no folder
   const std::filesystem::path& folder() const { return folder_; }  ///< empty: none
@@ -48,7 +52,8 @@ class KeptParts {
  private:
   std::filesystem::path folder_;
   SealedKind kind_ = unfinished_work;
-  std::string_view extension_;
+  std::string_view extension_ = ".part";
+  FolderOf owner_ = FolderOf::user;
 };
 
 }  // namespace parvis

@@ -126,7 +126,7 @@ bool is_proposed(std::uint8_t source) { return source > std::uint8_t(FillSource:
 Result<KeptParts> LayerKeeper::parts(const SealedKind& kind, std::string_view extension) const {
   const Result<fs::path> folder = path_inside(folder_, fs::path("layers") / "kept");
   if (!folder) return folder.errors();
-  return KeptParts(*folder, kind, extension);
+  return KeptParts(*folder, kind, extension, FolderOf::program);
 }
 
 std::optional<std::vector<ImageF>> LayerKeeper::read_found(PlaceLayers& place) const {

@@ -15,8 +15,8 @@
 namespace parvis::facades {
 namespace {
 
-/// A smooth pattern on all surfaces, linear.
-glm::vec3 pattern(glm::dvec3 p) {
+/// A smooth terrace_pattern on all surfaces, linear.
+glm::vec3 terrace_pattern(glm::dvec3 p) {
   return {0.4 + 0.2 * std::sin(2.0 * p.x), 0.4 + 0.2 * std::sin(3.0 * p.z + p.x),
           0.3 + 0.1 * std::cos(2.5 * p.x - p.z)};
 }
@@ -27,13 +27,13 @@ PreparedPhoto photo_of(const LayerModel& model, const View& view) {
     for (int x = 0; x < view.width; ++x) {
       const float depth = photo.depths[std::size_t(y * view.width + x)];
       const glm::vec3 colour =
-          std::isfinite(depth) ? pattern(view.to_world({x + 0.5, y + 0.5}, depth)) : glm::vec3(0.9f);
+          std::isfinite(depth) ? terrace_pattern(view.to_world({x + 0.5, y + 0.5}, depth)) : glm::vec3(0.9f);
       for (int c = 0; c < 3; ++c) photo.colours.at(x, y)[c] = colour[c];
     }
   return photo;
 }
 
-std::vector<NamedMesh> street() {
+std::vector<NamedMesh> terrace_street() {
   return {wall("far", 6, -9, 9, -6, 6), wall("near", 4, -0.7f, 0.7f, -2, 2),
           quad("ground", {-9, 1, -2}, {18, 0, 0}, {0, 9, 0})};
 }
@@ -45,28 +45,30 @@ std::vector<PreparedPhoto> photos_of(const LayerModel& model) {
   return photos;
 }
 
-/// Largest error over the pixels that have a colour; the pattern is the truth.
+/// Largest error over the pixels that have a colour; the terrace_pattern is the truth.
 float largest_error(const LayerModel& model, const View& view, const ImageF& picture) {
   const ItemBuffer seen = item_buffer(model, view);
   float largest = 0.0f;
   for (int y = 0; y < view.height; ++y)
     for (int x = 0; x < view.width; ++x)
       if (picture.at(x, y)[3] > 0.0f) {
-        const glm::vec3 truth = pattern(view.to_world({x + 0.5, y + 0.5}, seen.depths[seen.index(x, y)]));
+        const glm::vec3 truth =
+            terrace_pattern(view.to_world({x + 0.5, y + 0.5}, seen.depths[seen.index(x, y)]));
         for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(picture.at(x, y)[c] - truth[c]));
       }
   return largest;
 }
 
 TEST(NovelView, ShowsThePatternFromBetweenThePhotographs) {
-  const LayerModel model = model_of(street());
+  const LayerModel model = model_of(terrace_street());
   const auto photos = photos_of(model);
   const View view = test_view(160, 120, {0.7, 0.3, 0.1});
   const ImageF picture = novel_view(model, view, photos, {});
   int covered = 0;
   for (std::size_t i = 3; i < picture.pixels.size(); i += 4) covered += picture.pixels[i] > 0.0f;
   EXPECT_GT(covered, 160 * 120 * 95 / 100);
-  // Bilinear lookups of a smooth pattern; pixels of a photograph that mix two walls give way to another's.
+  // Bilinear lookups of a smooth terrace_pattern; pixels of a photograph that mix two walls give way to
+  // another's.
   const float error = largest_error(model, view, picture);
   EXPECT_LT(error, 0.1f);
   BlendSettings without_depth;
@@ -76,7 +78,7 @@ TEST(NovelView, ShowsThePatternFromBetweenThePhotographs) {
 }
 
 TEST(NovelView, APhotographsOwnViewpointShowsThatPhotograph) {
-  const LayerModel model = model_of(street());
+  const LayerModel model = model_of(terrace_street());
   const auto photos = photos_of(model);
   const ImageF picture = novel_view(model, photos[2].view, photos, {});
   const ItemBuffer seen = item_buffer(model, photos[2].view);
@@ -120,7 +122,7 @@ TEST(Blend, ColoursDoNotJumpWhereTheBestPhotographsChange) {
 }
 
 TEST(Balance, FindsExposuresThatWereChanged) {
-  const LayerModel model = model_of(street());
+  const LayerModel model = model_of(terrace_street());
   std::vector<PreparedPhoto> photos = photos_of(model);
   const std::vector<double> scales = {0.8, 1.1, 1.0, 0.9, 1.2};
   for (std::size_t i = 0; i < photos.size(); ++i) {
@@ -143,7 +145,7 @@ TEST(Balance, FindsExposuresThatWereChanged) {
 }
 
 TEST(Balance, APasserByIsFoundByColourAndTheWallIsNot) {
-  const LayerModel model = model_of(street());
+  const LayerModel model = model_of(terrace_street());
   std::vector<PreparedPhoto> photos = photos_of(model);
   for (int y = 30; y < 60; ++y)
     for (int x = 100; x < 115; ++x)
@@ -182,7 +184,7 @@ float trust_with_spot(const LayerModel& model, int side) {
 }
 
 TEST(Balance, ABlockAloneIsNoOccluder) {
-  const LayerModel model = model_of(street());
+  const LayerModel model = model_of(terrace_street());
   EXPECT_GT(trust_with_spot(model, 5), 0.8f) << "a glint in a pane";
   EXPECT_LT(trust_with_spot(model, 15), 0.5f) << "the control: something is there";
 }

@@ -21,7 +21,7 @@ std::uint64_t key_of(const scene::Scene& scene) {
 }  // namespace
 
 TransferCache::TransferCache(const scene::Scene& scene)
-    : parts_(scene::baked_folder(scene, "bounced_light"), kind, ".transfer") {
+    : parts_(scene::baked_folder(scene, "bounced_light"), kind, ".transfer", FolderOf::program) {
   if (!parts_.keeps_parts()) return;
   key_ = key_of(scene);
   name_ = fmt::format("{:016x}", key_);

@@ -245,7 +245,9 @@ TEST_F(LitObjects, ForgetTheirOwnShadeWhereTheyAreTurnedOrStretched) {
           &found = changed.light("corner")->parts[0].front;
     const double mean = mean_difference(truth, std::vector<vec3>(truth.size(), vec3(0.0f)));
     EXPECT_LT(mean_difference(found, truth), 1e-3 * mean) << placed;
-    EXPECT_GT(mean_difference(before, truth), 0.01 * mean) << placed << ": the control";
+    // The control: stretched alike in all directions it shades itself as before, turned it does not.
+    if (std::string_view(placed).find("heading") != std::string_view::npos)
+      EXPECT_GT(mean_difference(before, truth), 0.01 * mean) << placed;
   }
 }
 

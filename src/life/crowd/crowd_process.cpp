@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "life/crowd/scene_ground.h"
 #include "scene/data/object_animation.h"
 
 namespace parvis::crowd {
@@ -12,9 +11,10 @@ namespace {
 
 constexpr int clock_steps = 6;  // of action::step_s, for one step of the crowd
 constexpr float crowd_step_s = float(double(clock_steps) * action::step_s);
-constexpr int destinations = 64;      // places that people walk between
-constexpr int tries_per_person = 12;  // to find a place from which a way leads on
-constexpr int warm_up_steps = 200;    // all start at rest
+constexpr int destinations = 64;       // places that people walk between
+constexpr int tries_per_person = 12;   // to find a place from which a way leads on
+constexpr int tries_for_place = 1000;  // within the radius
+constexpr int warm_up_steps = 200;     // all start at rest
 constexpr float mean_speed = 1.34f, speed_deviation = 0.26f, min_speed = 0.6f,
                 max_speed = 2.0f;  // Weidmann 1993
 constexpr float longest_rest_s = 12.0f,
@@ -37,8 +37,14 @@ int CrowdProcess::new_destination(Random& random) { return random.index(int(crow
 
 void CrowdProcess::populate(const CrowdDemand& demand) {
   Random places(demand.seed);
+  // Triangles of wide ground reach beyond the part that was asked for.
   const auto somewhere = [&] {
-    return crowd_->mesh().place(places.uniform(), places.uniform(), places.uniform());
+    glm::vec3 place(0.0f);
+    for (int t = 0; t < tries_for_place; ++t) {
+      place = crowd_->mesh().place(places.uniform(), places.uniform(), places.uniform());
+      if (glm::distance(glm::vec2(place), demand.centre) < demand.radius_m) break;
+    }
+    return place;
   };
   for (int d = 0; d < destinations; ++d) {
     const glm::vec3 place = somewhere();
@@ -73,11 +79,13 @@ void CrowdProcess::populate(const CrowdDemand& demand) {
 void CrowdProcess::begin(scene::Scene& scene, action::SharedByProcesses&) {
   const CrowdDemand& demand = std::as_const(scene).data<CrowdDemand>();
   if (demand.people <= 0 || demand.models.empty()) return;
-  Result<NavMesh> mesh = NavMesh::create(ground_of(scene, demand.centre, demand.radius_m));
+  const WalkingGround ground = ground_of(scene, demand.centre, demand.radius_m);
+  Result<NavMesh> mesh = NavMesh::create(ground);
   if (!mesh) {
     for (const Error& reason : mesh.errors()) warn(error("crowd: {}", reason.message));
     return;
   }
+  heights_ = GroundHeights(ground);
   models_ = demand.models;
   crowd_.emplace(*std::move(mesh));
   populate(demand);
@@ -105,7 +113,9 @@ void CrowdProcess::walk() {
   const Walkers& walkers = crowd_->walkers();
   for (std::size_t p = 0; p < shown_.size(); ++p) {
     Shown& it = shown_[p];
-    it.before = it.now, it.now = glm::vec3(walkers.position[p], walkers.height_m[p]);
+    it.before = it.now;
+    it.now = glm::vec3(walkers.position[p], walkers.height_m[p]);
+    it.now.z = heights_.at(it.now);
     it.walked_before_m = it.walked_m, it.heading_before = it.heading;
     const glm::vec2 velocity = walkers.velocity[p];
     const float speed = glm::length(velocity);

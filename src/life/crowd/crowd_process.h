@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "life/crowd/crowd.h"
 #include "life/crowd/demand.h"
+#include "life/crowd/scene_ground.h"
 #include "scene/action/process.h"
 
 namespace parvis::crowd {
@@ -46,6 +47,7 @@ class CrowdProcess final : public action::Process {
   int new_destination(Random& random);
 
   std::optional<Crowd> crowd_;
+  GroundHeights heights_;
   std::vector<PersonModel> models_;
   std::vector<Shown> shown_;
   std::vector<Random> randoms_;

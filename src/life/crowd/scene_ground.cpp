@@ -1,6 +1,8 @@
 #include "life/crowd/scene_ground.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "base/bounds.h"
 #include "scene/data/model.h"
@@ -46,6 +48,52 @@ void add_lane(const scene::Lane& lane, glm::vec2 centre, float radius_m, Walking
 }
 
 }  // namespace
+
+GroundHeights::GroundHeights(const WalkingGround& ground) : corners_(ground.corners) {
+  if (corners_.empty()) return;
+  glm::vec2 low(corners_[0]), high = low;
+  for (const glm::vec3 p : corners_) low = glm::min(low, glm::vec2(p)), high = glm::max(high, glm::vec2(p));
+  constexpr float fine_cell_m = 2.0f, max_cells_per_side = 512.0f;
+  corner_ = low;
+  cell_m_ = std::max(fine_cell_m, std::max(high.x - low.x, high.y - low.y) / max_cells_per_side);
+  size_ = glm::ivec2((high - low) / cell_m_) + 1;
+  const auto each_cell = [&](const auto& use) {
+    for (std::uint32_t t = 0; 3 * std::size_t(t) < corners_.size(); ++t) {
+      const glm::vec3* c = &corners_[3 * std::size_t(t)];
+      const glm::vec2 from = glm::min(glm::vec2(c[0]), glm::min(glm::vec2(c[1]), glm::vec2(c[2]))),
+                      to = glm::max(glm::vec2(c[0]), glm::max(glm::vec2(c[1]), glm::vec2(c[2])));
+      const glm::ivec2 first((from - corner_) / cell_m_), last((to - corner_) / cell_m_);
+      for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x) use(std::size_t(y * size_.x + x), t);
+    }
+  };
+  starts_.assign(std::size_t(size_.x) * std::size_t(size_.y) + 1, 0);
+  each_cell([&](std::size_t cell, std::uint32_t) { ++starts_[cell + 1]; });
+  for (std::size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
+  items_.resize(starts_.back());
+  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+  each_cell([&](std::size_t cell, std::uint32_t t) { items_[next[cell]++] = t; });
+}
+
+float GroundHeights::at(glm::vec3 place) const {
+  constexpr float above_m = 0.3f, below_m = 0.5f;
+  const glm::vec2 p(place), cell = (p - corner_) / cell_m_;
+  if (!(cell.x >= 0.0f && cell.y >= 0.0f && cell.x < float(size_.x) && cell.y < float(size_.y)))
+    return place.z;
+  const auto number = std::size_t(int(cell.y) * size_.x + int(cell.x));
+  float height = place.z - below_m;
+  for (std::uint32_t i = starts_[number]; i < starts_[number + 1]; ++i) {
+    const glm::vec3* c = &corners_[3 * std::size_t(items_[i])];
+    const glm::vec2 u = c[1] - c[0], v = c[2] - c[0], w = p - glm::vec2(c[0]);
+    const float area = u.x * v.y - u.y * v.x;
+    if (area == 0.0f) continue;
+    const float s = (w.x * v.y - w.y * v.x) / area, t = (u.x * w.y - u.y * w.x) / area;
+    if (s < 0.0f || t < 0.0f || s + t > 1.0f) continue;
+    const float z = c[0].z + s * (c[1].z - c[0].z) + t * (c[2].z - c[0].z);
+    if (z <= place.z + above_m) height = std::max(height, z);
+  }
+  return height > place.z - below_m ? height : place.z;
+}
 
 WalkingGround ground_of(const scene::Scene& scene, glm::vec2 centre, float radius_m) {
   WalkingGround ground;

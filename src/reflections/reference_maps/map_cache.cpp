@@ -45,7 +45,8 @@ bool is_state(const fs::path& folder) {
 MapCache::MapCache(const scene::Scene& scene) {
   if (scene.file.empty()) return;
   key_ = maps_key(scene);
-  parts_ = KeptParts(scene::baked_folder(scene, fmt::format("{:016x}", key_)), kind, extension);
+  parts_ =
+      KeptParts(scene::baked_folder(scene, fmt::format("{:016x}", key_)), kind, extension, FolderOf::program);
   max_places_ = std::max(std::size_t(std::max(max_maps(scene), 1)), map_plan(scene).places.size());
 }
 
@@ -110,7 +111,7 @@ void forget_other_states(const scene::Scene& scene, const std::set<fs::path>& ke
     if (fs::is_symlink(fs::symlink_status(other, code)))
       fs::remove(other, code);  // the link itself
     else
-      KeptParts(other, kind, extension).remove();
+      KeptParts(other, kind, extension, FolderOf::program).remove();
 }
 
 }  // namespace parvis::reference_maps

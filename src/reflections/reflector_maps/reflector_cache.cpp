@@ -57,7 +57,7 @@ std::vector<WantedReflector> wanted_reflectors(const scene::Scene& scene) {
 }  // namespace
 
 ReflectorCache::ReflectorCache(const scene::Scene& scene)
-    : parts_(scene::baked_folder(scene, "reflectors"), kind, ".reflector") {}
+    : parts_(scene::baked_folder(scene, "reflectors"), kind, ".reflector", FolderOf::program) {}
 
 fs::path ReflectorCache::file(const ReflectorSource& source) const { return parts_.file(name_of(source)); }
 
