@@ -246,8 +246,9 @@ TEST_F(LitObjects, ForgetTheirOwnShadeWhereTheyAreTurnedOrStretched) {
     const double mean = mean_difference(truth, std::vector<vec3>(truth.size(), vec3(0.0f)));
     EXPECT_LT(mean_difference(found, truth), 1e-3 * mean) << placed;
     // The control: stretched alike in all directions it shades itself as before, turned it does not.
-    if (std::string_view(placed).find("heading") != std::string_view::npos)
+    if (std::string_view(placed).find("heading") != std::string_view::npos) {
       EXPECT_GT(mean_difference(before, truth), 0.01 * mean) << placed;
+    }
   }
 }
 
