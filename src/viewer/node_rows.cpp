@@ -87,6 +87,13 @@ std::string label_of(const AttributeSchema& schema) {
   return label;
 }
 
+/// False of numbers, colours and choices that a node leaves to what it refers to (the size of a placed object
+/// is its kind's): there is nothing to show or to edit.
+bool has_value(const Node& node, const AttributeSchema& schema) {
+  return node.gives(schema.name) || !schema.fallback.empty() || schema.is_required || schema.is_repeatable ||
+         editor_of(schema.type) == Editor::text;
+}
+
 std::string why_fixed(const scene::LiveScene& live, const Node& node, const AttributeSchema& schema) {
   if (!live.is_built(node)) return "part of the node around it, which is read when the scene is loaded";
   if (schema.is_live) return "";
@@ -146,8 +153,9 @@ std::vector<AttributeRow> attribute_rows(const scene::LiveScene& live, const Nod
   std::vector<AttributeRow> rows;
   rows.reserve(node.schema->attributes.size());
   for (const AttributeSchema& schema : node.schema->attributes)
-    rows.push_back({&schema, editor_of(schema.type), label_of(schema), text_of(node, schema),
-                    numbers_of(node, schema), node.gives(schema.name), why_fixed(live, node, schema)});
+    if (has_value(node, schema))
+      rows.push_back({&schema, editor_of(schema.type), label_of(schema), text_of(node, schema),
+                      numbers_of(node, schema), node.gives(schema.name), why_fixed(live, node, schema)});
   return rows;
 }
 

@@ -336,8 +336,8 @@ void account_for_unknown(const std::string& text, const BuildingModel& building,
     while (first > 0 && std::isdigit(static_cast<unsigned char>(text[first - 1]))) --first;
     if (first == 0 || first == at || text[first - 1] != '#') continue;
     int id = 0;
-    if (std::from_chars(text.data() + first, text.data() + at, id).ec != std::errc() || known.contains(id))
-      continue;
+    if (std::from_chars(text.data() + first, text.data() + at, id).ec != std::errc()) continue;
+    if (const auto entity = known.find(id); entity != known.end() && entity->second) continue;
     std::size_t end = at + 1;
     while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '_'))
       ++end;
