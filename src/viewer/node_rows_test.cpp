@@ -158,6 +158,8 @@ TEST_F(NodeRowsTest, EveryLiveAttributeTakesBackItsOwnValue) {
       scene::Node node;
       node.schema = &type.schema;
       if (schema.is_required && !schema.choices.empty()) node.set(schema.name, schema.choices.front());
+      if (schema.is_required && schema.type == scene::AttributeType::points)
+        node.set(schema.name, std::vector<glm::vec3>{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}});
       for (const AttributeRow& each : attribute_rows(live(), node)) {
         if (each.schema != &schema) continue;
         const Result<scene::AttributeValue> value = edited_value(each);

@@ -398,6 +398,7 @@ Result<IfcBodies> ifc_bodies(std::string text, const std::string& name, Errors& 
           else
             static_cast<Complaints*>(list)->add(words);
         });
+    const std::string read = text;  // IFC++ takes the text apart
     ReaderSTEP().loadModelFromString(text, building);
     replace_sweeps(*building, *converter.getRepresentationConverter(),
                    [&](int id, const std::string& problem) {
@@ -418,7 +419,7 @@ Result<IfcBodies> ifc_bodies(std::string text, const std::string& name, Errors& 
       report_lost_items(*product, *object, complaints);
     }
     complaints.name_entities(*building);
-    account_for_unknown(text, *building, bodies.account);
+    account_for_unknown(read, *building, bodies.account);
     bodies.pictures = textures.pictures();
     bodies.place = georeference_of(*building);
   } catch (const std::exception& failure) {
