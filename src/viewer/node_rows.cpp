@@ -87,11 +87,11 @@ std::string label_of(const AttributeSchema& schema) {
   return label;
 }
 
-/// False of numbers, colours and choices that a node leaves to what it refers to (the size of a placed object
-/// is its kind's): there is nothing to show or to edit.
+/// False of live numbers, colours and choices that a node leaves to what it refers to (the size of a placed
+/// object is its kind's): there is nothing to show or to edit.
 bool has_value(const Node& node, const AttributeSchema& schema) {
-  return node.gives(schema.name) || !schema.fallback.empty() || schema.is_required || schema.is_repeatable ||
-         editor_of(schema.type) == Editor::text;
+  return !schema.is_live || node.gives(schema.name) || !schema.fallback.empty() || schema.is_required ||
+         schema.is_repeatable || editor_of(schema.type) == Editor::text;
 }
 
 std::string why_fixed(const scene::LiveScene& live, const Node& node, const AttributeSchema& schema) {
