@@ -226,7 +226,8 @@ void Steering::separate(Walkers& walkers, const Walls& walls, std::span<const Mo
         walkers.position[i] += push, walkers.position[j] -= push;
       }
     }
-    for (std::size_t i = 0; i < walkers.size(); ++i) {
+    for (const Sorted& self : sorted_) {
+      const std::size_t i = self.index;
       glm::vec2& p = walkers.position[i];
       for (const MovingBody& body : bodies) {
         const glm::vec2 from = p - nearest_on_segment(body.a, body.b, p);
@@ -239,8 +240,10 @@ void Steering::separate(Walkers& walkers, const Walls& walls, std::span<const Mo
         const Wall& wall = walls.all()[w];
         if (walkers.height_m[i] < wall.bottom_m - 0.1f || walkers.height_m[i] > wall.top_m) continue;
         const std::optional<WallContact> contact = contact_with(wall, p);
-        if (contact && contact->distance_m < 0.0f && contact->distance_m > -max_behind_m)
-          p -= contact->distance_m * contact->inward;
+        if (!contact || contact->distance_m >= 0.0f) continue;
+        // However far others have pushed: who stood before the wall when the step began stays there.
+        const float before_m = glm::dot(self.position - wall.a, contact->inward);
+        if (before_m > -max_behind_m) p -= contact->distance_m * contact->inward;
       }
     }
   }
