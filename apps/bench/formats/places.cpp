@@ -254,11 +254,8 @@ void measure_street(const BenchSetup& setup, const fs::path& file, Totals& total
   const auto [flip, black] = flip_to_traced(*stage, street, picture);
   totals.picture_flip = std::max(totals.picture_flip, flip),
   totals.black_flip = std::min(totals.black_flip, black);
-  scene::Scene without_plane = scene;
-  std::erase_if(without_plane.objects,
-                [&](const scene::Object& object) { return !is_of_place(scene, object); });
   totals.gap = std::max(totals.gap, gap);
-  totals.gap_without = std::min(totals.gap_without, gap_percent(without_plane, street));
+  totals.gap_without = std::min(totals.gap_without, gap_percent(without_plane(scene), street));
   report.note(
       fmt::format("{}: {:.2f} min to the picture ({:.2f} s of processor time), {:.0f} % of which show the "
                   "place, there FLIP {:.3f} from the traced one; gaps of {:.3f} %",
