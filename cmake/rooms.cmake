@@ -91,8 +91,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")  # without the time of day in it, so 
   target_compile_options(parvis_test_pch PRIVATE "SHELL:-Xclang -fno-pch-timestamp")
 endif()
 
-# With PARVIS_UNITY several sources of a target are compiled as one file, which halves the time of a whole build. Names in
-# unnamed namespaces are therefore unique within a room, and the preset develop, without batches, finds missing includes.
+# With PARVIS_UNITY several sources of a target are compiled as one file. Names in unnamed namespaces are therefore unique within
+# a room, those of its tests too, and differ from functions of the namespace around: one of the same signature would be hidden
+# without a word. The preset develop, without batches, finds missing includes.
 function(parvis_batches target)
   if(PARVIS_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
