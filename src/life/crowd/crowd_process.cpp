@@ -109,7 +109,7 @@ void CrowdProcess::walk() {
     crowd_->send(p, new_destination(random),
                  random.chance(resting) ? random.uniform(1.0f, longest_rest_s) : 0.0f);
   }
-  crowd_->step(crowd_step_s, vehicles_);
+  crowd_->step(crowd_step_s);
   const Walkers& walkers = crowd_->walkers();
   for (std::size_t p = 0; p < shown_.size(); ++p) {
     Shown& it = shown_[p];

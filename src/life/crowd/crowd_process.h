@@ -51,7 +51,6 @@ class CrowdProcess final : public action::Process {
   std::vector<PersonModel> models_;
   std::vector<Shown> shown_;
   std::vector<Random> randoms_;
-  std::vector<MovingBody> vehicles_;
   long steps_ = 0;
 };
 
