@@ -11,7 +11,7 @@
 #include "base/files.h"
 #include "commands.h"
 #include "planning/design/design_file.h"
-#include "planning/design/session.h"
+#include "planning/design/scene_surfaces.h"
 #include "planning/plan_drawing/plan_files.h"
 #include "scene_arguments.h"
 

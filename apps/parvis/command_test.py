@@ -1404,6 +1404,54 @@ class Window(InAFolder):
         self.assertEqual(struct.unpack(">II", taken.read_bytes()[16:24]), (610, 640), "the picture beside the panel")
         self.expect_golden(last, "window")
 
+    def drive(self, command, steps, **options):
+        """Runs `parvis view` on a display of 1280 x 720 and drives it by xdotool."""
+        if not shutil.which("xvfb-run") or not shutil.which("xdotool"):
+            self.skipTest("skipped: no xvfb-run or no xdotool here")
+        script = self.write(
+            "drive.sh",
+            f"{shlex.join(map(str, [PARVIS, 'view', *command, '--size', '1280x720']))} & parvis=$!\n"
+            "timeout 60 xdotool search --sync --onlyvisible --name Parvis > window || exit 3\n"
+            "at() { xdotool mousemove --window $(cat window) $1 $2 sleep 0.4; }\n"
+            "click() { at $1 $2; xdotool click 1 sleep 0.6; }\n"
+            "key() { xdotool key $1 sleep 0.5; }\n" + steps,
+        )
+        done = subprocess.run(
+            [*self.display(), "-s", "-screen 0 1280x720x24", "sh", str(script)],
+            capture_output=True, text=True, timeout=240, cwd=self.folder, env={**os.environ, "XDG_CACHE_HOME": str(self.folder)}, **options,
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def write_square(self):
+        self.write("ground.glb", glb(*triangle(positions=(-60, -60, 0, 60, -60, 0, 0, 90, 0))))
+        return self.write(
+            "square.xp",
+            'sun(azimuth_deg=200, elevation_deg=40)\nmodel(file="ground.glb", name=ground)\n'
+            'camera(name="street", position="0 -12 1.7", target="0 0 0.5")\n',
+        )
+
+    def test_a_bench_is_placed_moved_and_saved_by_hand(self):
+        scene = self.write_square()
+        last = self.folder / "last.png"
+        self.drive(
+            [scene, "--plan", "--screenshot", last],
+            "key k\nclick 110 590\n"  # the first picture of the catalogue
+            "click 640 400\nkey Escape\nkey k\n"
+            "key 4\nsleep 2.5\nclick 700 250\nclick 640 360\n"  # in the plan
+            "key ctrl+s\nkey Escape\nkey Escape\nkey Escape\nwait $parvis\n",
+        )
+        saved = self.folder / "square-design.xp"
+        self.assertIn("bench_wood", saved.read_text())
+        self.assertIn("bench_wood_1", run("plan", saved, "--list").stdout)
+
+    def test_what_was_done_is_there_again_after_a_kill(self):
+        scene = self.write_square()
+        self.drive([scene, "--plan"], "key k\nclick 110 590\nclick 640 400\nsleep 1\nkill -9 $parvis\nwait $parvis\ntrue\n")
+        listed = run("plan", scene, "--journal", "--list").stdout
+        self.assertIn("bench_wood_1", listed)
+        self.assertIn("steps that had not been saved are there again", listed)
+
     def expect_golden(self, picture, name):
         """The picture looks like docs/goldens/NAME.png; fonts and edges are the machine's own."""
         golden = pathlib.Path(__file__).resolve().parents[2] / "docs" / "goldens" / f"{name}.png"

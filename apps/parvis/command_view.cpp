@@ -1,4 +1,6 @@
 // parvis view: the window.
+#include <cstdlib>
+
 #include "commands.h"
 #include "scene_arguments.h"
 #include "viewer/window.h"
@@ -8,7 +10,8 @@ namespace {
 
 struct ViewArguments : SceneArguments {
   viewer::WindowOptions window;
-  std::string rate;  ///< of --fps; empty: not given
+  std::string rate;      ///< of --fps; empty: not given
+  std::string language;  ///< of --language; empty: the locale's
 };
 
 /// --fps.
@@ -30,6 +33,27 @@ Status read_rate(const std::string& rate, viewer::WindowOptions& window) {
   return Done{};
 }
 
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+/// The name of the locale for messages.
+std::string locale() {
+  for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"})
+    if (const std::string value = variable(name); !value.empty()) return value;
+  return "";
+}
+
+/// The folder for pictures of the catalogue, in the user's folder of caches.
+std::filesystem::path kept_pictures() {
+  if (const std::string cache = variable("XDG_CACHE_HOME"); !cache.empty())
+    return std::filesystem::path(cache) / "parvis";
+  if (const std::string home = variable("HOME"); !home.empty())
+    return std::filesystem::path(home) / ".cache" / "parvis";
+  return {};
+}
+
 Status view(ViewArguments& arguments) {
   viewer::WindowOptions& window = arguments.window;
   if (Status status = arguments.read_size(window.width, window.height); !status) return status;
@@ -40,6 +64,8 @@ Status view(ViewArguments& arguments) {
   window.pictures.name = window.title;
   if (window.pictures.folder.empty())
     window.pictures.folder = (arguments.scene.parent_path() / ".").lexically_normal();
+  window.language = planner::language_of(arguments.language.empty() ? locale() : arguments.language);
+  window.kept_pictures = kept_pictures();
   Result<house::Play> play = arguments.open_play();
   if (!play) return play.errors();
   if (!arguments.tour.empty())
@@ -62,6 +88,10 @@ void add_view(CLI::App& app, Chosen& chosen) {
   command->add_option("--fps", arguments->rate,
                       "Frames per second to hold by drawing fewer pixels while anything moves; auto: 10 on a "
                       "software renderer, 60 on a GPU; or off (default: auto; off with --frames)");
+  command->add_flag("--plan", arguments->window.plans,
+                    "Begin with the planner's tool in hand: place, move and measure objects of a design");
+  command->add_option("--language", arguments->language, "Of the planner's tool (default: the locale's)")
+      ->check(CLI::IsMember({"en", "fr"}));
   command->add_flag("--panel", arguments->window.has_panel, "Begin with the panel open");
   command->add_option("--output", arguments->window.pictures.folder,
                       "Folder of the pictures that the key P takes (default: the scene's)");

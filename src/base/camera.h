@@ -15,8 +15,16 @@ struct FrustumTangents {
   bool operator==(const FrustumTangents&) const = default;
 };
 
-/// A perspective camera: rigid pose in the world, near and far plane in metres, and either a symmetric
-/// vertical field of view or an off-axis frustum. The aspect ratio (width / height) belongs to the image and
+/// A parallel projection, as plans have it.
+struct ParallelView {
+  float height_m = 1.0f;      ///< of the image, in the world
+  float distance_m = 100.0f;  ///< of what is looked at, for those who ask for the size of a pixel by distance
+
+  bool operator==(const ParallelView&) const = default;
+};
+
+/// A camera: rigid pose in the world, near and far plane in metres, and a symmetric vertical field of view,
+/// an off-axis frustum or a parallel projection. The aspect ratio (width / height) belongs to the image and
 /// is passed in.
 struct Camera {
   glm::mat4 world_from_camera{1.0f};  ///< rigid
@@ -24,6 +32,8 @@ struct Camera {
   /// Off-axis frustum, as a display wall and an eye position define it. Where it is set, `vertical_fov` and
   /// the aspect ratio of the image are ignored.
   std::optional<FrustumTangents> off_axis = std::nullopt;
+  /// Where it is set, all rays go along the axis; the fields of view are ignored.
+  std::optional<ParallelView> parallel = std::nullopt;
   float near_m = 0.1f;
   float far_m = 4000.0f;
 
@@ -33,19 +43,25 @@ struct Camera {
   glm::vec3 forward_in_world() const { return -glm::vec3(world_from_camera[2]); }
   /// View matrix: transforms points of the world into the camera's frame.
   glm::mat4 camera_from_world() const { return glm::inverse(world_from_camera); }
-  /// Edges of the image for `aspect` = width / height; the off-axis frustum where there is one.
+  /// Edges of the image for `aspect` = width / height; the off-axis frustum where there is one. Of a parallel
+  /// view: as seen from the eye at its distance.
   FrustumTangents tangents(float aspect) const {
-    if (off_axis) return *off_axis;
-    const float top = glm::tan(0.5f * vertical_fov);
+    if (off_axis && !parallel) return *off_axis;
+    const float top = 0.5f * height_at_1m();
     return {-(top * aspect), top * aspect, -top, top};
   }
   /// Height of the image on a plane 1 m before the camera, metres.
   float height_at_1m() const {
+    if (parallel) return parallel->height_m / parallel->distance_m;
     return off_axis ? off_axis->top - off_axis->bottom : 2.0f * glm::tan(0.5f * vertical_fov);
   }
   /// OpenGL projection matrix (clip z from -1 at the near plane to 1 at the far plane), off-axis where the
   /// camera is.
   glm::mat4 clip_from_camera(float aspect) const {
+    if (parallel) {
+      const float up = 0.5f * parallel->height_m, right = up * aspect;
+      return glm::ortho(-right, right, -up, up, near_m, far_m);
+    }
     if (!off_axis) return glm::perspective(vertical_fov, aspect, near_m, far_m);
     return glm::frustum(near_m * off_axis->left, near_m * off_axis->right, near_m * off_axis->bottom,
                         near_m * off_axis->top, near_m, far_m);

@@ -53,6 +53,18 @@ TEST(Camera, TheFieldOfViewReachesFromEdgeToEdge) {
   EXPECT_NEAR(projected({0, 0, -camera.far_m}).z, 1.0f, 1e-4f);
 }
 
+TEST(Camera, AParallelViewShowsWidthsAtAnyDistanceAlike) {
+  Camera camera;
+  camera.parallel = ParallelView{20.0f, 300.0f};
+  for (const float distance : {5.0f, 300.0f, 1000.0f}) {
+    const glm::vec4 clip = camera.clip_from_camera(2.0f) * glm::vec4(20.0f, 10.0f, -distance, 1.0f);
+    EXPECT_NEAR(clip.x / clip.w, 1.0f, 1e-5f);
+    EXPECT_NEAR(clip.y / clip.w, 1.0f, 1e-5f);
+  }
+  EXPECT_NEAR(camera.height_at_1m() * 300.0f, 20.0f, 1e-4f);
+  EXPECT_TRUE(is_usable(camera));
+}
+
 TEST(Camera, AHorizontalFieldOfViewGivesItsVerticalOne) {
   EXPECT_NEAR(vertical_fov(1.2f, 1.0f), 1.2f, 1e-6f);
   EXPECT_NEAR(std::tan(0.5f * vertical_fov(1.2f, 2.0f)) * 2.0f, std::tan(0.6f), 1e-6f);

@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "viewer/key_names.h"
@@ -17,11 +18,15 @@ Input& input_of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowU
 
 }  // namespace
 
-Input::Input(GLFWwindow* window, Visit& visit, Panel& panel) : window_(window), visit_(visit), panel_(panel) {
+Input::Input(GLFWwindow* window, Visit& visit, Panel& panel, Planning& planning)
+    : window_(window), visit_(visit), panel_(panel), planning_(planning) {
   static_assert(std::tuple_size_v<decltype(controller_buttons_)> == GLFW_GAMEPAD_BUTTON_LAST + 1);
   glfwSetWindowUserPointer(window, this);
-  glfwSetKeyCallback(window,
-                     [](GLFWwindow* in, int key, int, int action, int) { input_of(in).on_key(key, action); });
+  glfwSetKeyCallback(window, [](GLFWwindow* in, int key, int, int action, int modifiers) {
+    input_of(in).on_key(key, action, modifiers);
+  });
+  glfwSetCharCallback(window,
+                      [](GLFWwindow* in, unsigned character) { input_of(in).on_character(character); });
   glfwSetMouseButtonCallback(
       window, [](GLFWwindow* in, int button, int action, int) { input_of(in).on_button(button, action); });
   glfwSetCursorPosCallback(window, [](GLFWwindow* in, double x, double y) { input_of(in).on_cursor(x, y); });
@@ -30,6 +35,7 @@ Input::Input(GLFWwindow* window, Visit& visit, Panel& panel) : window_(window), 
 
 Input::~Input() {
   glfwSetKeyCallback(window_, nullptr);
+  glfwSetCharCallback(window_, nullptr);
   glfwSetMouseButtonCallback(window_, nullptr);
   glfwSetCursorPosCallback(window_, nullptr);
   glfwSetScrollCallback(window_, nullptr);
@@ -43,10 +49,156 @@ bool Input::tell_scene(const std::string& key, int action) {
   return true;
 }
 
-void Input::on_key(int key, int action) {
+void Input::on_key(int key, int action, int modifiers) {
   if (ImGui::GetIO().WantTextInput && action == GLFW_PRESS) return;
-  if (tell_scene(key_name(key), action) || action != GLFW_PRESS) return;
+  if (tell_scene(key_name(key), action) || action == GLFW_RELEASE) return;
+  if (press_planning(key, modifiers) || action != GLFW_PRESS) return;
   press(key);
+}
+
+void Input::on_character(unsigned character) {
+  if (ImGui::GetIO().WantTextInput || !planning_.is_on()) return;
+  if (character < 128) planning_.tool()->type(char(character));
+}
+
+bool Input::is_held(int key) const { return glfwGetKey(window_, key) == GLFW_PRESS; }
+
+/// Where the cursor stands in the picture; none: beside it, or over a bar.
+std::optional<planner::Pointer> Input::pointer() const {
+  glm::ivec2 points(0), pixels(0);
+  glfwGetWindowSize(window_, &points.x, &points.y);
+  glfwGetFramebufferSize(window_, &pixels.x, &pixels.y);
+  const glm::dvec2 pixels_per_point = glm::dvec2(pixels) / glm::dvec2(glm::max(points, 1));
+  planner::Pointer pointer;
+  pointer.camera = visit_.camera();
+  pointer.size = {std::max(pixels.x - int(double(panel_.width()) * pixels_per_point.x), 1),
+                  std::max(pixels.y, 1)};
+  pointer.pixel = cursor_ * pixels_per_point;
+  pointer.adds = is_held(GLFW_KEY_LEFT_SHIFT) || is_held(GLFW_KEY_RIGHT_SHIFT);
+  pointer.copies = is_held(GLFW_KEY_LEFT_ALT);
+  pointer.is_free = is_held(GLFW_KEY_LEFT_CONTROL) || is_held(GLFW_KEY_RIGHT_CONTROL);
+  const bool is_inside = pointer.pixel.x >= 0.0 && pointer.pixel.y >= 0.0 &&
+                         pointer.pixel.x < pointer.size.x && pointer.pixel.y < pointer.size.y;
+  const bool is_dragging = planning_.is_on() && planning_.tool()->is_dragging();
+  if (!is_dragging && (!is_inside || ImGui::GetIO().WantCaptureMouse)) return std::nullopt;
+  return pointer;
+}
+
+bool Input::press_with_control(int key, bool has_shift) {
+  switch (key) {
+    case GLFW_KEY_Z:
+      has_shift ? planning_.redo() : planning_.undo();
+      return true;
+    case GLFW_KEY_Y:
+      planning_.redo();
+      return true;
+    case GLFW_KEY_S:
+      planning_.save();
+      return true;
+    case GLFW_KEY_A:
+      return planning_.run("select all");
+    case GLFW_KEY_D:
+      return planning_.run("duplicate selected by 1,0");
+    case GLFW_KEY_G:
+      return planning_.run(fmt::format("group selected as group_{}", planning_.session()->done().size() + 1));
+    case GLFW_KEY_L:
+      return planning_.run("lock selected");
+    default:
+      break;
+  }
+  if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) {
+    planning_.keep_view(key - GLFW_KEY_0);
+    return true;
+  }
+  return false;
+}
+
+/// Keys of the planner's tool; false: the key is another's.
+bool Input::press_planning(int key, int modifiers) {
+  if (key == GLFW_KEY_F3) {
+    planning_.turn_on(!planning_.is_on());
+    return true;
+  }
+  if (key == GLFW_KEY_K && modifiers == 0) {
+    if (!planning_.is_on()) {
+      planning_.turn_on(true);
+      planning_.shows_catalogue = planning_.is_on();
+    } else {
+      planning_.shows_catalogue = !planning_.shows_catalogue;
+    }
+    return true;
+  }
+  if (!planning_.is_on()) return false;
+  if ((modifiers & GLFW_MOD_CONTROL) != 0 && press_with_control(key, (modifiers & GLFW_MOD_SHIFT) != 0))
+    return true;
+  planner::Tool& tool = *planning_.tool();
+  const bool has_selection = !planning_.session()->selected().empty();
+  const double step_m = (modifiers & GLFW_MOD_CONTROL) != 0 ? 1.0
+                        : (modifiers & GLFW_MOD_SHIFT) != 0 ? 0.1
+                                                            : 0.01;
+  const auto nudge = [&](double right, double ahead) {
+    planning_.tell(tool.nudge(visit_.camera(), step_m * right, step_m * ahead));
+    return true;
+  };
+  const bool turns = tool.mode() == planner::Mode::insert;
+  switch (key) {
+    case GLFW_KEY_V:
+      tool.choose(planner::Mode::select);
+      return true;
+    case GLFW_KEY_U:
+      tool.choose(planner::Mode::surface);
+      return true;
+    case GLFW_KEY_M:
+      tool.choose(planner::Mode::measure);
+      return true;
+    case GLFW_KEY_4:
+    case GLFW_KEY_5:
+    case GLFW_KEY_6:
+      if (!tool.typed().empty() || tool.action() != planner::Action::none) return true;  // a number is typed
+      planning_.look(PlanningView(key - GLFW_KEY_4));
+      return true;
+    case GLFW_KEY_1:
+    case GLFW_KEY_2:
+    case GLFW_KEY_3:
+      return tool.action() != planner::Action::none;
+    case GLFW_KEY_Q:
+    case GLFW_KEY_E:
+      if (turns) planning_.tell(tool.turn(key == GLFW_KEY_Q ? -15.0 : 15.0));
+      return turns;
+    case GLFW_KEY_G:
+      return has_selection && planning_.tell(tool.begin(planner::Action::move));
+    case GLFW_KEY_R:
+      return has_selection && planning_.tell(tool.begin(planner::Action::turn));
+    case GLFW_KEY_Z:
+      return has_selection && planning_.tell(tool.begin(planner::Action::resize));
+    case GLFW_KEY_F:
+      planning_.frame_selection();
+      return true;
+    case GLFW_KEY_DELETE:
+      return planning_.run("delete selected");
+    case GLFW_KEY_ENTER:
+    case GLFW_KEY_KP_ENTER:
+      planning_.tell(tool.confirm());
+      return true;
+    case GLFW_KEY_BACKSPACE:
+      return tool.type('\b');
+    case GLFW_KEY_LEFT:
+      return has_selection && nudge(-1, 0);
+    case GLFW_KEY_RIGHT:
+      return has_selection && nudge(1, 0);
+    case GLFW_KEY_UP:
+      return has_selection && nudge(0, 1);
+    case GLFW_KEY_DOWN:
+      return has_selection && nudge(0, -1);
+    case GLFW_KEY_ESCAPE:
+      if (tool.cancel()) return true;
+      return std::exchange(planning_.shows_catalogue, false);
+    default:
+      break;
+  }
+  if (key < GLFW_KEY_KP_1 || key > GLFW_KEY_KP_9) return false;
+  planning_.go_to_view(key - GLFW_KEY_KP_0);
+  return true;
 }
 
 void Input::press(int key) {
@@ -89,12 +241,36 @@ void Input::press(int key) {
 void Input::on_button(int button, int action) {
   if (ImGui::GetIO().WantCaptureMouse && action == GLFW_PRESS) return;
   if (tell_scene(mouse_button_name(button), action)) return;
+  const bool is_plan = visit_.mode() == Mode::plan;
+  if (button == GLFW_MOUSE_BUTTON_MIDDLE || (button == GLFW_MOUSE_BUTTON_RIGHT && is_plan))
+    is_panning_ = action == GLFW_PRESS && is_plan;
   if (button != GLFW_MOUSE_BUTTON_LEFT) return;
+  if (planning_.is_on()) {
+    const std::optional<planner::Pointer> at = pointer();
+    planner::Tool& tool = *planning_.tool();
+    if (action == GLFW_PRESS && at && planning_.waits_for_balcony()) {
+      if (!planning_.stand_at(*at))
+        visit_.notice_error(planning_.word("Click a window or a balcony to stand there."));
+      return;
+    }
+    if (action == GLFW_PRESS && at && tool.press(*at)) {
+      if (!planning_.session()->selected().empty()) panel_.turn_to_design();
+      return;
+    }
+    if (action == GLFW_RELEASE && tool.is_dragging()) {
+      if (at) planning_.tell(tool.release(*at));
+      return;
+    }
+  }
   const bool was_dragging = std::exchange(is_dragging_, action == GLFW_PRESS);
-  if (is_dragging_)
+  if (is_dragging_) {
     pressed_at_ = cursor_;
-  else if (was_dragging && glm::distance(cursor_, pressed_at_) < farthest_click)
-    choose_what_is_below_the_cursor();
+  } else if (was_dragging && glm::distance(cursor_, pressed_at_) < farthest_click) {
+    if (planning_.is_on())
+      planning_.session()->select({});
+    else
+      choose_what_is_below_the_cursor();
+  }
 }
 
 void Input::choose_what_is_below_the_cursor() {
@@ -110,11 +286,24 @@ void Input::choose_what_is_below_the_cursor() {
 void Input::on_cursor(double x, double y) {
   const glm::dvec2 moved = glm::dvec2(x, y) - cursor_;
   cursor_ = {x, y};
-  if (is_dragging_) controls_.turn -= radians_per_pixel * glm::vec2(moved);
+  has_moved_ = true;
+  int width = 0, height = 1;
+  glfwGetWindowSize(window_, &width, &height);
+  if (is_panning_ || (is_dragging_ && visit_.mode() == Mode::plan))
+    controls_.pan += glm::vec2(moved.x, -moved.y) / float(std::max(height, 1));
+  else if (is_dragging_)
+    controls_.turn -= radians_per_pixel * glm::vec2(moved);
 }
 
 void Input::on_wheel(double steps) {
-  if (!ImGui::GetIO().WantCaptureMouse) controls_.zoom += float(steps);
+  if (ImGui::GetIO().WantCaptureMouse) return;
+  const bool turns =
+      planning_.is_on() && is_held(GLFW_KEY_LEFT_ALT) && planning_.tool()->mode() == planner::Mode::insert;
+  if (turns) return static_cast<void>(planning_.tell(planning_.tool()->turn(5.0 * steps)));
+  controls_.zoom += float(steps);
+  if (const std::optional<planner::Pointer> at = pointer())
+    controls_.zoom_at =
+        glm::vec2((at->pixel - 0.5 * glm::dvec2(at->size)) * glm::dvec2(1.0, -1.0) / double(at->size.y));
 }
 
 void Input::poll_controller() {
@@ -126,13 +315,24 @@ void Input::poll_controller() {
       tell_scene(controller_button_name(int(i)), is_down ? GLFW_PRESS : GLFW_RELEASE);
 }
 
-Controls Input::poll() {
+Controls Input::poll(double seconds) {
   glfwPollEvents();
   poll_controller();
+  const bool has_moved = std::exchange(has_moved_, false);
+  planning_.step(float(seconds), has_moved);
+  if (planning_.is_on() && has_moved) {
+    if (const std::optional<planner::Pointer> at = pointer())
+      planning_.tool()->point(*at);
+    else
+      planning_.tool()->leave();
+  }
   Controls controls = std::exchange(controls_, {});
   const auto is_down = [&](int key) {
     const bool is_for_scene = visit_.actions().uses_key(key_name(key));
-    const bool counts = !is_for_scene && !ImGui::GetIO().WantTextInput;
+    const bool turns = planning_.is_on() && planning_.tool()->mode() == planner::Mode::insert &&
+                       (key == GLFW_KEY_Q || key == GLFW_KEY_E);
+    const bool has_control = is_held(GLFW_KEY_LEFT_CONTROL) || is_held(GLFW_KEY_RIGHT_CONTROL);
+    const bool counts = !is_for_scene && !turns && !has_control && !ImGui::GetIO().WantTextInput;
     return counts && glfwGetKey(window_, key) == GLFW_PRESS ? 1.0f : 0.0f;
   };
   controls.move = {is_down(GLFW_KEY_W) - is_down(GLFW_KEY_S), is_down(GLFW_KEY_A) - is_down(GLFW_KEY_D),

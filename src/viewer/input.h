@@ -5,6 +5,7 @@
 #include <array>
 
 #include "viewer/panel.h"
+#include "viewer/planning.h"
 #include "viewer/visit.h"
 
 struct GLFWwindow;
@@ -15,15 +16,17 @@ namespace parvis::viewer {
 /// the panel captures does not reach the visit.
 class Input {
  public:
-  Input(GLFWwindow* window, Visit& visit, Panel& panel);
+  Input(GLFWwindow* window, Visit& visit, Panel& panel, Planning& planning);
   Input(const Input&) = delete;
   ~Input();
 
-  /// Processes pending events and returns the controls since the last call.
-  Controls poll();
+  /// Processes pending events and returns the controls since the last call, `seconds` ago.
+  Controls poll(double seconds);
 
   /// Handles a GLFW key event: an event of the scene, else a command of the viewer.
-  void on_key(int key, int action);
+  void on_key(int key, int action, int modifiers);
+  /// Handles a character: of a number that is typed while a thing moves.
+  void on_character(unsigned character);
   /// Handles a GLFW mouse button event: an event of the scene, else dragging or selecting with the left
   /// button.
   void on_button(int button, int action);
@@ -37,12 +40,18 @@ class Input {
   void press(int key);
   void choose_what_is_below_the_cursor();
   void poll_controller();
+  bool press_planning(int key, int modifiers);
+  bool press_with_control(int key, bool has_shift);
+  std::optional<planner::Pointer> pointer() const;
+  bool is_held(int key) const;
 
   GLFWwindow* window_;
   Visit& visit_;
   Panel& panel_;
+  Planning& planning_;
   Controls controls_;
-  bool is_dragging_ = false;
+  bool is_dragging_ = false, is_panning_ = false;
+  bool has_moved_ = false;                    ///< the cursor, since the last poll
   glm::dvec2 cursor_{0.0}, pressed_at_{0.0};  ///< in the window's units
   std::array<unsigned char, 15> controller_buttons_{};
 };

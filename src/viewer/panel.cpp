@@ -18,7 +18,6 @@ namespace {
 constexpr float panel_width = 350.0f;  // at scale 1
 constexpr float largest_share = 0.5f;  // of a narrow window
 constexpr double last_hour = 23.99;    // dayLight takes hours below 24
-constexpr const char* page_of_nodes = "Scene";
 constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
 
@@ -74,9 +73,9 @@ void Panel::draw_panel(Visit& visit, const FrameStatistics& statistics) {
   const float footer = ImGui::GetFrameHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
   ImGui::BeginChild("page", {0.0f, -footer});
   if (ImGui::BeginTabBar("pages")) {
-    const bool turns_to_nodes = std::exchange(turns_to_nodes_, false);
+    const char* const turns_to = std::exchange(turns_to_, nullptr);
     const auto page = [&](const char* name, const auto& draw_page) {
-      const bool turns_here = turns_to_nodes && std::string_view(name) == page_of_nodes;
+      const bool turns_here = turns_to && std::string_view(name) == turns_to;
       const bool is_shown =
           ImGui::BeginTabItem(name, nullptr, turns_here ? ImGuiTabItemFlags_SetSelected : 0);
       rows_.note_place(name);
@@ -84,6 +83,7 @@ void Panel::draw_panel(Visit& visit, const FrameStatistics& statistics) {
       draw_page();
       ImGui::EndTabItem();
     };
+    if (design_page) page(page_of_design, [&] { design_page(rows_); });
     page("Visit", [&] {
       draw_visit(visit);
       draw_scenarios(visit);
@@ -106,7 +106,7 @@ void Panel::draw_panel(Visit& visit, const FrameStatistics& statistics) {
 
 void Panel::choose(const scene::LiveScene& live, const scene::Node& node) {
   nodes_.choose(live, node);
-  turns_to_nodes_ = true;
+  turns_to_ = page_of_nodes;
 }
 
 void Panel::draw_visit(Visit& visit) {

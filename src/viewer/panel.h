@@ -2,6 +2,7 @@
 // closes with a key, and the picture stands beside it, not below it.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "viewer/frame_statistics.h"
@@ -25,6 +26,10 @@ class Panel {
   /// and what the visitor is to be told.
   void draw(Visit& visit, const FrameStatistics& statistics);
 
+  /// Rows of a page of its own before all others, "Design"; empty: there is none.
+  std::function<void(PanelRows&)> design_page = {};
+  /// Turns to that page.
+  void turn_to_design() { turns_to_ = page_of_design; }
   /// Turns to the page of the scene's nodes, and to this one.
   void choose(const scene::LiveScene& live, const scene::Node& node);
   const scene::Node* chosen() const { return nodes_.chosen(); }
@@ -44,12 +49,14 @@ class Panel {
   void draw_keys() const;
   void draw_notices(const Visit& visit) const;
 
+  static constexpr const char *page_of_nodes = "Scene", *page_of_design = "Design";
+
   const ImguiContext& imgui_;
   std::string title_, driver_;
   bool draws_on_processor_;
   PanelRows rows_;
   PanelNodes nodes_;
-  bool turns_to_nodes_ = false;  ///< in the next frame
+  const char* turns_to_ = nullptr;  ///< in the next frame, a page; null: none
 };
 
 }  // namespace parvis::viewer

@@ -30,11 +30,12 @@ glm::vec2 azimuth_and_elevation_deg(glm::vec3 direction) {
 Visit::Visit(house::Stage& stage, const Camera& start, PicturePlace pictures)
     : stage_(stage), navigation_(start), pictures_(std::move(pictures)) {}
 
-void Visit::step(const Controls& controls, float passed_s) {
+void Visit::step(const Controls& controls, float passed_s, bool stands_still) {
   time_s_ += double(passed_s);
   const float seconds = std::min(passed_s, longest_step_s);
   std::erase_if(notices_, [this](const Notice& notice) { return notice.ends_s < time_s_; });
-  for (const Error& warning : stage_.play().advance(double(seconds), camera().position_in_world()))
+  const double scene_s = stands_still ? 0.0 : double(seconds);
+  for (const Error& warning : stage_.play().advance(scene_s, camera().position_in_world()))
     notice_error(to_string(warning));
   follow_guidance(controls);
   const bool has_vehicle = followed_ >= 0 && followed_ < int(scene().objects.size());
@@ -80,6 +81,12 @@ void Visit::look_from(const std::string& camera) {
   if (!found) return notice_error(to_string(found.errors()));
   actions().release_view();
   navigation_.go_to(*found);
+}
+
+void Visit::fly_to(const Camera& camera) {
+  constexpr float flight_s = 1.5f;
+  actions().release_view();
+  navigation_.fly_to(camera, flight_s);
 }
 
 void Visit::start_tour(const std::string& name) {

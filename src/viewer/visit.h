@@ -32,7 +32,8 @@ class Visit {
 
   /// Advances the scene by `passed_s`, but at most by a second: after a pause of the program it continues
   /// where it stopped. The visitor moves for a tenth of a second at most.
-  void step(const Controls& controls, float passed_s);
+  /// Where `stands_still`, the scene's time does not go on.
+  void step(const Controls& controls, float passed_s, bool stands_still = false);
   Camera camera() const { return navigation_.camera(); }  ///< the visitor's present view
 
   Mode mode() const { return navigation_.mode(); }  ///< walk, fly or follow
@@ -49,6 +50,10 @@ class Visit {
 
   /// Goes to a camera of the scene by name.
   void look_from(const std::string& camera);
+  /// Flies to a camera within a second and a half.
+  void fly_to(const Camera& camera);
+  /// The motion of the visitor, for those who lead it.
+  Navigation& navigation() { return navigation_; }
   /// Starts a tour of the scene by name; any motion of the visitor ends it.
   void start_tour(const std::string& name);
   /// Activates a scenario; empty: the base scene.

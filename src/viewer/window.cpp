@@ -16,6 +16,7 @@
 #include "viewer/input.h"
 #include "viewer/keys.h"
 #include "viewer/panel.h"
+#include "viewer/planning_bars.h"
 
 namespace parvis::viewer {
 namespace {
@@ -96,10 +97,13 @@ class Frames {
         visit_(stage, start, options.pictures),
         imgui_(scale_.interface, scale_.pixels_per_point),
         panel_(imgui_, options.title),
-        input_(window, visit_, panel_),
+        planning_(visit_, options.language),
+        bars_(imgui_, planning_, options.kept_pictures),
+        input_(window, visit_, panel_, planning_),
         imgui_input_(window) {
     panel_.is_open = options.has_panel;
-    visit_.notice("F1 shows the keys, F2 the panel");
+    if (options.plans) planning_.turn_on(true);
+    if (!planning_.is_on()) visit_.notice("F1 shows the keys, F2 the panel, K what can be placed");
     stage.hold_rate(rate_of(options, gl::is_software()));
   }
 
@@ -111,8 +115,10 @@ class Frames {
       const float seconds = std::chrono::duration<float>(now - last).count();
       last = now;
       statistics_.add(double(seconds), visit_.stage().pass_times().latest());
-      if (!rests_) visit_.stage().follow_clock(1e3 * double(seconds));
-      visit_.step(input_.poll(), seconds);
+      const bool held = planning_.holds_things();
+      if (!rests_ && !held) visit_.stage().follow_clock(1e3 * double(seconds));
+      const Controls controls = input_.poll(double(seconds));
+      visit_.step(controls, seconds, planning_.holds_things());
       draw(double(seconds));
       const bool is_last = glfwWindowShouldClose(window_) || frame == options_.max_frames;
       if (is_last && !options_.screenshot.empty())
@@ -142,14 +148,21 @@ class Frames {
     }
     ImGui_ImplGlfw_NewFrame();
     imgui_.begin_frame();
+    if (planning_.is_on() != bool(panel_.design_page))
+      panel_.design_page = planning_.is_on() ? [this](PanelRows& rows) { bars_.draw_inspector(rows); }
+                                             : std::function<void(PanelRows&)>();
     panel_.draw(visit_, statistics_);
+    bars_.draw(ImGui::GetIO().DisplaySize.x - panel_.width());
 
     house::Stage& stage = visit_.stage();
     const int covered = int(panel_.width() * scale_.pixels_per_point);
     const int shown_width = std::max(width_ - covered, 1);
     stillness_.add_frame(stage.scene(), visit_.camera(), shown_width, height_, passed_s);
-    rests_ = options_.max_frames == 0 && stillness_.rests();
-    if (rests_)
+    const bool held = planning_.holds_things();
+    rests_ = options_.max_frames == 0 && stillness_.rests() && !held;
+    if (held)
+      planning_.draw_held(shown_width, height_);
+    else if (rests_)
       stage.refine(visit_.camera(), shown_width, height_);
     else
       stage.draw(visit_.camera(), shown_width, height_);
@@ -189,6 +202,8 @@ class Frames {
   Visit visit_;
   ImguiContext imgui_;
   Panel panel_;
+  Planning planning_;
+  PlanningBars bars_;
   Input input_;
   ImguiInput imgui_input_;
   FrameStatistics statistics_;

@@ -19,6 +19,7 @@ class CameraRays {
   FrustumTangents edges_;
   glm::vec2 size_;
   float near_m_;
+  float parallel_m_;  ///< distance of a parallel view; 0: the camera is none
 };
 
 /// Through `pixel`, counted in pixels from the picture's top left; it begins at the near plane, as the

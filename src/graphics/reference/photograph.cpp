@@ -41,6 +41,7 @@ std::uint64_t work_key(const scene::Scene& scene, const Camera& camera, int widt
   for (const float value : {camera.vertical_fov, camera.near_m, options.paths.clamp.value_or(-1.0f)})
     hash.add(value);
   if (camera.off_axis) hash.add(*camera.off_axis);
+  if (camera.parallel) hash.add(*camera.parallel);
   for (const int value : {width, height, options.samples_per_pixel, options.paths.bounces.value_or(-1),
                           int(options.paths.strategy)})
     hash.add(value);

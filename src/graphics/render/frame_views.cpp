@@ -31,7 +31,8 @@ Status draw_frame(Renderer& renderer, const scene::Scene& scene, std::span<const
   end_pass("shadows");
   for (std::size_t i = 0; i < eyes.size(); ++i) {
     renderer.select_eye(i);
-    renderer.prepare_main_view(eyes[i].camera, eyes[i].width, eyes[i].height, steps.subjects);
+    renderer.prepare_main_view(eyes[i].camera, eyes[i].width, eyes[i].height, steps.subjects,
+                               steps.shown_objects);
     if (steps.reflect) steps.reflect(eyes[i].camera);
     end_pass("reflections");
     renderer.draw_main_view();

@@ -17,6 +17,7 @@ struct EyeView {
 /// What a frame is made of besides its views.
 struct FrameSteps {
   Subjects subjects = Subjects::all;
+  const std::vector<std::uint8_t>* shown_objects = nullptr;  ///< as View has it
   /// Makes reflections for one eye, whose view is prepared: Renderer::main_view, visible_objects. Empty:
   /// none.
   std::function<void(const Camera& eye)> reflect = {};

@@ -44,6 +44,26 @@ void PictureTarget::resize(int width, int height) {
   displayed_ = framebuffer_of(picture_);
 }
 
+void PictureTarget::keep() {
+  if (kept_room_ != room_) {
+    kept_room_ = room_;
+    kept_samples_ = multisampled_texture(GL_RGBA16F, room_.x, room_.y);
+    kept_depth_ = multisampled_texture(GL_DEPTH_COMPONENT32F, room_.x, room_.y);
+  }
+  copy(samples_, kept_samples_);
+  copy(sample_depth_, kept_depth_);
+}
+
+void PictureTarget::restore() {
+  copy(kept_samples_, samples_);
+  copy(kept_depth_, sample_depth_);
+}
+
+void PictureTarget::copy(const gl::Texture& from, const gl::Texture& to) const {
+  constexpr GLenum kind = GL_TEXTURE_2D_MULTISAMPLE;
+  glCopyImageSubData(from.name(), kind, 0, 0, 0, 0, to.name(), kind, 0, 0, 0, 0, width_, height_, 1);
+}
+
 void PictureTarget::resolve(float exposure) {
   resolve_.set("exposure", exposure);
   screen_.draw(resolve_, resolved_.name(), {width_, height_}, samples_.name());

@@ -29,6 +29,10 @@ class PictureTarget {
 
   /// Framebuffer to draw into: RGBA16F and depth, multisampled.
   GLuint framebuffer() const { return multisampled_.name(); }
+  /// Keeps the samples as they are, for `restore`.
+  void keep();
+  /// Makes the samples what they were when they were kept, in this size.
+  void restore();
   /// Resolves the samples to one linear radiance per pixel, each sample weighted by shading::sample_weight at
   /// this exposure.
   void resolve(float exposure);
@@ -45,12 +49,15 @@ class PictureTarget {
 
  private:
   PictureTarget(gl::Program resolve, gl::Program display);
+  void copy(const gl::Texture& from, const gl::Texture& to) const;
 
   int width_ = 0, height_ = 0;
   glm::ivec2 room_{0};  ///< of the textures
   gl::Program resolve_, display_;
   WholeScreen screen_;
   gl::Texture samples_, sample_depth_, radiance_, picture_;
+  gl::Texture kept_samples_, kept_depth_;  ///< none before `keep`
+  glm::ivec2 kept_room_{0};
   gl::Framebuffer multisampled_, resolved_, displayed_;
 };
 

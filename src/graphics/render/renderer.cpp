@@ -1,7 +1,11 @@
 #include "graphics/render/renderer.h"
 
+#include <cassert>
+#include <utility>
+
 #include "graphics/render/bindings.h"
 #include "graphics/render/frame.h"
+#include "graphics/render/held_drawables.h"
 
 namespace parvis::render {
 namespace {
@@ -55,6 +59,8 @@ void append(std::vector<T>& all, const Range& more) {
 }
 
 }  // namespace
+
+Renderer::~Renderer() = default;
 
 Result<std::unique_ptr<Renderer>> Renderer::create(const scene::Scene& scene, const Drawables& drawables,
                                                    const MakeLight& make_light) {
@@ -120,7 +126,7 @@ void Renderer::begin_view(const View& view) {
   bind_frame(view);
 }
 
-void Renderer::draw_prepared(const View& view) {
+void Renderer::draw_prepared(const View& view, std::span<Drawable* const> drawables) {
   begin_view(view);
   if (view.kind == ViewKind::picking) {
     constexpr GLuint nothing[4]{};
@@ -128,18 +134,18 @@ void Renderer::draw_prepared(const View& view) {
   }
   if (view.clears) glClear(GL_DEPTH_BUFFER_BIT);
   if (has_colour(view)) light_->bind();
-  for (Drawable* drawable : drawables_) drawable->draw(view, Pass::opaque);
+  for (Drawable* drawable : drawables) drawable->draw(view, Pass::opaque);
   if (has_colour(view)) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-  for (Drawable* drawable : drawables_) drawable->draw(view, Pass::cutout);
+  for (Drawable* drawable : drawables) drawable->draw(view, Pass::cutout);
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 
   if (has_colour(view)) {
-    if (view.kind != ViewKind::mirrored) light_->draw_sky(view);
+    if (view.kind != ViewKind::mirrored && view.clears) light_->draw_sky(view);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
                         GL_ONE_MINUS_SRC_ALPHA);  // alpha: coverage
     glDepthMask(GL_FALSE);
-    for (Drawable* drawable : drawables_) drawable->draw(view, Pass::blend);
+    for (Drawable* drawable : drawables) drawable->draw(view, Pass::blend);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
   }
@@ -156,7 +162,7 @@ Culling Renderer::cull(const View& view) {
 void Renderer::draw_view(const View& view) {
   const Culling culling = cull(view);
   for (Drawable* drawable : drawables_) drawable->prepare(view, culling);
-  draw_prepared(view);
+  draw_prepared(view, drawables_);
 }
 
 /// Nodes of the scene may have come that make the first thing of their kind. Where its drawable cannot be
@@ -224,11 +230,13 @@ Status Renderer::reserve_eyes(std::size_t count) {
   return Done{};
 }
 
-void Renderer::prepare_main_view(const Camera& camera, int width, int height, Subjects subjects) {
+void Renderer::prepare_main_view(const Camera& camera, int width, int height, Subjects subjects,
+                                 const std::vector<std::uint8_t>* shown_objects) {
   target().resize(width, height);
   main_view_ = camera_view(camera, target().framebuffer(), width, height);
-  main_view_.culls_hidden = true;
+  main_view_.culls_hidden = !shown_objects;  // static occluders hide things though they are left out
   main_view_.subjects = subjects;
+  main_view_.shown_objects = shown_objects;
   const Culling culling = cull(main_view_);
   choose_quality(drawables_, main_view_, culling, budget_ms_);
   for (Drawable* drawable : drawables_) drawable->prepare(main_view_, culling);
@@ -236,8 +244,27 @@ void Renderer::prepare_main_view(const Camera& camera, int width, int height, Su
 }
 
 void Renderer::draw_main_view() {
-  draw_prepared(main_view_);
+  draw_prepared(main_view_, drawables_);
+  main_view_.shown_objects = nullptr;
   target().resolve(exposure_);
+}
+
+Status Renderer::draw_over(const scene::Scene& held, bool is_kept) {
+  if (!held_) held_ = std::make_unique<HeldDrawables>();
+  if (Status status = held_->follow(held, kinds_); !status) return status;
+  assert(main_view_.kind == ViewKind::main && "a view has been drawn");
+  if (is_kept) target().restore();
+  View view = main_view_;
+  view.clears = view.culls_hidden = false;
+  view.subjects = Subjects::all;
+  const Culling culling(view, nullptr);
+  for (Drawable* drawable : held_->all()) drawable->prepare(view, culling);
+  // The sun's rays were traced for what stands at each pixel: things that are held look up its map.
+  const TracedSun traced_sun = std::exchange(traced_sun_, 0);
+  draw_prepared(view, held_->all());
+  traced_sun_ = traced_sun;
+  target().resolve(exposure_);
+  return Done{};
 }
 
 ObjectPicture Renderer::pick(const Camera& camera, int width, int height, bool culls_hidden) {

@@ -22,6 +22,8 @@ namespace parvis::render {
 /// by themselves are numbered behind the objects (scene::for_each_traced_kind). Top row first.
 using ObjectPicture = BasicImage<std::uint32_t>;
 
+class HeldDrawables;
+
 /// Draws views of a scene and of what rooms draw by themselves, in one light.
 class Renderer {
  public:
@@ -31,6 +33,7 @@ class Renderer {
   static Result<std::unique_ptr<Renderer>> create(const scene::Scene& scene, const Drawables& drawables,
                                                   const MakeLight& make_light);
   Renderer(const Renderer&) = delete;
+  ~Renderer();
 
   /// Adds a drawable, drawn after the scene's in every view. Not owned.
   void add(Drawable* drawable) { drawables_.push_back(drawable); }
@@ -50,13 +53,21 @@ class Renderer {
   /// The eye whose main view is prepared, drawn, displayed and read from now on: below the count reserved.
   void select_eye(std::size_t eye) { eye_ = eye; }
   /// Culls for the main view: afterwards `visible_objects` lists the objects that may need reflections. A
-  /// bench may leave out the static scene.
-  void prepare_main_view(const Camera& camera, int width, int height, Subjects subjects = Subjects::all);
+  /// bench may leave out the static scene; `shown_objects` as View has it, until the view is drawn.
+  void prepare_main_view(const Camera& camera, int width, int height, Subjects subjects = Subjects::all,
+                         const std::vector<std::uint8_t>* shown_objects = nullptr);
   /// Indices of the scene objects in the main view, ascending.
   const std::vector<int>& visible_objects() const { return scene_.visible_objects(); }
   const View& main_view() const { return main_view_; }  ///< of the selected eye, as prepared last
   /// Draws the prepared main view, four samples per pixel.
   void draw_main_view();
+  /// Keeps the main view as drawn, for `draw_over`.
+  void keep_main_view() { target().keep(); }
+  /// Draws the things of another, small scene over the main view that was kept, or over the one that has just
+  /// been drawn: hidden where it hides them, in its light, without casting shadows. The objects of `held` are
+  /// those of the last call, and new ones behind them. Fails only if a shader does; the view is as it was
+  /// then.
+  Status draw_over(const scene::Scene& held, bool is_kept);
   /// Draws a view for another room, for example a cube face: linear radiance, with sky.
   void draw_view(const View& view);
   /// A readback: for tools and tests, not for frames.
@@ -109,7 +120,7 @@ class Renderer {
   Culling cull(const View& view);
   void begin(const scene::Scene& scene, const Camera& camera, bool has_moving_shade);
   void begin_view(const View& view);
-  void draw_prepared(const View& view);
+  void draw_prepared(const View& view, std::span<Drawable* const> drawables);
   void bind_frame(const View& view);
 
   std::unique_ptr<LightSource> light_;
@@ -121,8 +132,9 @@ class Renderer {
   SceneOccluders occluders_;
   Drawables kinds_;
   std::vector<Drawables::Made> room_drawables_;
-  std::vector<Drawable*> drawables_;  ///< all: the scene's, the rooms', and those that were added
-  std::size_t object_count_;          ///< of the scene, in the last frame
+  std::vector<Drawable*> drawables_;     ///< all: the scene's, the rooms', and those that were added
+  std::unique_ptr<HeldDrawables> held_;  ///< of `draw_over`
+  std::size_t object_count_;             ///< of the scene, in the last frame
 
   // Extents of all drawables in this frame.
   Bounds fixed_bounds_;

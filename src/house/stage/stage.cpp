@@ -6,6 +6,7 @@
 #include "graphics/shading/tone_curve.h"
 #include "house/stage/place_check.h"
 #include "house/stage/refinement.h"
+#include "house/stage/stillness.h"
 #include "reflections/methods/frame.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
@@ -155,8 +156,32 @@ double Stage::drawn_share() const {
   return double(renderer_->width()) * double(renderer_->height()) / (double(width_) * double(height_));
 }
 
-void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn) {
+void Stage::draw_held(const Camera& camera, int width, int height, const std::vector<std::uint8_t>& shown,
+                      const scene::Scene& held) {
+  const glm::ivec2 size(width, height);
+  ContentHash hash;
+  hash.add(state_of(play_.scene, camera, width, height, &shown));
+  const bool is_below_known = std::exchange(below_held_, hash.value()) == hash.value();
+  if (!is_below_known) {
+    is_held_frame_kept_ = false;
+    draw(camera, size, scale_.drawn_size(width, height), &shown);
+  } else if (!is_held_frame_kept_) {
+    draw(camera, size, size, &shown);
+    renderer_->keep_main_view();
+    is_held_frame_kept_ = true;
+  } else {
+    pass_times_.begin_frame();
+  }
+  below_held_ = hash.value();
+  if (const Status status = renderer_->draw_over(held, is_held_frame_kept_); !status)
+    fmt::print(stderr, "{}", to_string(status.errors()));
+  pass_times_.end_pass("held things");
+}
+
+void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn,
+                 const std::vector<std::uint8_t>* shown) {
   end_refinement();
+  below_held_ = 0;
   if (has_new_mirrors() || methods::settings(play_.scene) != shown_reflection_)
     if (const Status status = set_reflection(methods::settings(play_.scene)); !status)
       fmt::print(stderr, "{}", to_string(status.errors()));
@@ -164,6 +189,7 @@ void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn) {
   drawn_from_ = camera;
   pass_times_.begin_frame();
   render::FrameSteps steps;
+  steps.shown_objects = shown;
   steps.end_pass = [&](const char* pass) { pass_times_.end_pass(pass); };
   const Status status =
       methods::draw_frame(*renderer_, play_.scene, reflections_.get(), {camera, drawn.x, drawn.y}, steps);

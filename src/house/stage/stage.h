@@ -108,6 +108,14 @@ class Stage {
     draw(camera, {width, height}, scale_.drawn_size(width, height));
   }
 
+  /// In place of `draw`, while a person holds things: the frame without the objects and things that `shown`
+  /// leaves out (a flag for each, as View::shown_objects), and over it those of `held`, a scene of their own,
+  /// in full resolution where the eye rests. While view, size, scene and `shown` stay as they are, the frame
+  /// below is drawn once: then a thing can be moved about at many frames per second. `held` as
+  /// Renderer::draw_over has it.
+  void draw_held(const Camera& camera, int width, int height, const std::vector<std::uint8_t>& shown,
+                 const scene::Scene& held);
+
   /// In place of `draw`, where neither view nor scene has changed since the last frame: draws it once more in
   /// full resolution if it was not, then refines it by the ray tracer, on other threads, and displays that
   /// picture from as many samples per pixel on as drawn ones have. `draw` ends it.
@@ -136,7 +144,8 @@ class Stage {
   void end_refinement();
   bool has_new_mirrors();
   Stage(Play play, std::unique_ptr<render::Renderer> renderer, ShownRadiance refined);
-  void draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn);
+  void draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn,
+            const std::vector<std::uint8_t>* shown = nullptr);
 
   Play play_;
   std::unique_ptr<render::Renderer> renderer_;
@@ -152,6 +161,8 @@ class Stage {
   int width_ = 0, height_ = 0;
   ShownRadiance refined_;
   int refined_samples_ = 0;
+  std::uint64_t below_held_ = 0;  ///< what the frame below things that are held shows
+  bool is_held_frame_kept_ = false;
   std::unique_ptr<KeptRays> kept_rays_;     ///< of the pictures at rest
   std::unique_ptr<Refinement> refinement_;  ///< last: it reads the renderer's light
 };

@@ -2,11 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "base/camera.h"
 #include "scene/data/scene.h"
 
 namespace parvis::house {
+
+/// A hash of all that a frame shows and that may change while a scene runs; without the objects that `shown`
+/// leaves out (a flag for each; null: all are shown).
+std::uint64_t state_of(const scene::Scene& scene, const Camera& camera, int width, int height,
+                       const std::vector<std::uint8_t>* shown = nullptr);
 
 /// Compares each frame with the one before it: the camera, the picture's size, and all of the scene that may
 /// change while it runs.

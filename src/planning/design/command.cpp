@@ -49,11 +49,11 @@ class Draft {
   void give_text(Node& node, const char* attribute, const std::string& text);
   void place(Node& node, glm::dvec3 at);
 
-  Result<Changes> finish();
+  Result<Changes> finish(Errors* refusals);
 
  private:
   bool is_near(const Node& one, const Node& other) const;
-  void check_places();
+  Errors taken_places() const;
 
   const DesignView& view_;
   Changes made_;
@@ -142,17 +142,19 @@ bool Draft::is_near(const Node& one, const Node& other) const {
          glm::distance(place_of(one), place_of(other)) < same_place_m;
 }
 
-void Draft::check_places() {
+Errors Draft::taken_places() const {
+  Errors refusals;
   std::set<std::string> gone;
   for (const Change& change : made_)
     if (change.before) gone.insert(name_of(*change.before));
-  for (std::size_t i = 0; i < made_.size() && !has_failed(); ++i) {
+  for (std::size_t i = 0; i < made_.size() && refusals.empty(); ++i) {
     if (!made_[i].after) continue;
     const Node& after = *made_[i].after;
     if (made_[i].before && !is_surface(after) && place_of(*made_[i].before) == place_of(after)) continue;
     const auto refuse = [&](const Node& other) {
       if (is_near(after, other))
-        fail(error("\"{}\" stands there already; put \"{}\" beside it", name_of(other), name_of(after)));
+        refusals.push_back(
+            error("\"{}\" stands there already; put \"{}\" beside it", name_of(other), name_of(after)));
     };
     for (std::size_t k = 0; k < i; ++k)
       if (made_[k].after) refuse(*made_[k].after);
@@ -160,10 +162,17 @@ void Draft::check_places() {
       for (const Node& other : view_.design->children)
         if (!gone.contains(name_of(other))) refuse(other);
   }
+  return refusals;
 }
 
-Result<Changes> Draft::finish() {
-  check_places();
+Result<Changes> Draft::finish(Errors* refusals) {
+  if (!has_failed()) {
+    const Errors taken = taken_places();
+    if (refusals)
+      *refusals = taken;
+    else
+      for (const Error& each : taken) fail(each);
+  }
   const std::size_t before = view_.design ? view_.design->children.size() : 0;
   std::size_t added = 0;
   for (const Change& change : made_) added += !change.before;
@@ -479,10 +488,10 @@ struct Maker {
 
 }  // namespace
 
-Result<Changes> changes_of(const DesignView& view, const Command& command) {
+Result<Changes> changes_of(const DesignView& view, const Command& command, Errors* refusals) {
   Draft draft(view);
   std::visit(Maker{draft}, command);
-  return draft.finish();
+  return draft.finish(refusals);
 }
 
 Result<Command> resolved(const DesignView& view, Command command) {

@@ -131,8 +131,9 @@ struct DesignView {
 };
 
 /// The changes of a command; none are made. Errors: names and kinds that do not exist, what is locked, sizes
-/// out of bounds, no names at all, a place that is taken or too far away.
-Result<Changes> changes_of(const DesignView& view, const Command& command);
+/// out of bounds, no names at all, a place that is taken or too far away. Where `refusals` is given, a place
+/// that is taken is reported there and is no error: for those who show what would be.
+Result<Changes> changes_of(const DesignView& view, const Command& command, Errors* refusals = nullptr);
 
 /// The command with all that it leaves open filled in, so that it does the same again: names and heights.
 Result<Command> resolved(const DesignView& view, Command command);

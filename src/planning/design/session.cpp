@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <memory>
 #include <set>
 
 #include "base/known_names.h"
-#include "graphics/reference/ray_scene.h"
 #include "scene/data/name_pattern.h"
 #include "scene/script/node_text.h"
 
@@ -335,35 +333,6 @@ Status Session::note_saved() {
 
 std::filesystem::path journal_file(const std::filesystem::path& scene_script, const std::string& design) {
   return scene_script.parent_path() / fmt::format(".{}.{}.journal", scene_script.stem().string(), design);
-}
-
-Session::Heights resting_heights(const scene::Scene& scene) {
-  const auto kept =
-      std::make_shared<std::unique_ptr<reference::RayScene>>();  // copies of the function share it
-  return [&scene, kept](glm::dvec2 at, const Names& without) {
-    constexpr float above_m = 2000.0f, max_rise_m = 1.2f, min_up = 0.5f;
-    if (!*kept)
-      *kept = std::make_unique<reference::RayScene>(scene);
-    else
-      (*kept)->update(scene);
-    std::vector<float> heights;
-    reference::Ray ray{glm::vec3(glm::vec2(at), above_m), glm::vec3(0.0f, 0.0f, -1.0f)};
-    for (int hits = 0; hits < 64; ++hits) {
-      const std::optional<reference::Hit> hit = (*kept)->nearest_hit(ray);
-      if (!hit) break;
-      const glm::vec3 normal = glm::normalize(reference::facet_normal(*hit->place, hit->triangle));
-      const auto object = std::size_t(hit->place->object);
-      const bool counts = object < scene.objects.size() && !hit->place->is_backdrop &&
-                          std::ranges::find(without, scene.objects[object].name) == without.end();
-      if (counts && std::abs(normal.z) > min_up) heights.push_back(above_m - hit->distance_m);
-      ray.min_m = hit->distance_m + 1e-3f;
-    }
-    if (heights.empty()) return 0.0;
-    const float lowest = heights.back();
-    const auto rest =
-        std::ranges::find_if(heights, [&](float height) { return height < lowest + max_rise_m; });
-    return std::round(double(*rest) * 1e4) * 1e-4;
-  };
 }
 
 }  // namespace parvis::design

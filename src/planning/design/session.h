@@ -91,11 +91,6 @@ class Session {
   std::string saved_script_;
 };
 
-/// What objects rest on at a place of the scene as it is now: of all that lies there, the highest within 1.2
-/// m of the lowest: ground, kerb, steps, table tops, but no roofs. What rooms draw by themselves (plants) and
-/// backdrops do not count.
-Session::Heights resting_heights(const scene::Scene& scene);
-
 /// Where the journal of a scene's design lies: beside the script, a hidden file.
 std::filesystem::path journal_file(const std::filesystem::path& scene_script, const std::string& design);
 

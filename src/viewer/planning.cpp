@@ -1,0 +1,219 @@
+#include "viewer/planning.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <utility>
+
+#include "graphics/reference/camera_ray.h"
+#include "planning/design/design_file.h"
+
+namespace parvis::viewer {
+namespace {
+
+constexpr float eye_m = 1.7f;
+constexpr float stands_before_wall_m = 0.35f;
+
+std::string time_now() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm local{};
+  localtime_r(&now, &local);
+  return fmt::format("{:02}:{:02}:{:02}", local.tm_hour, local.tm_min, local.tm_sec);
+}
+
+/// A file beside the scene that is not there yet.
+std::filesystem::path new_file(const std::filesystem::path& scene, const std::string& design) {
+  for (int number = 1;; ++number) {
+    const std::string suffix = number == 1 ? "" : fmt::format("-{}", number);
+    const std::filesystem::path file =
+        scene.parent_path() / fmt::format("{}-{}{}.xp", scene.stem().string(), design, suffix);
+    std::error_code code;
+    if (!std::filesystem::exists(file, code)) return file;
+  }
+}
+
+}  // namespace
+
+Planning::Planning(Visit& visit, planner::Language language)
+    : visit_(visit),
+      language_(language),
+      surfaces_(std::make_shared<design::SceneSurfaces>(visit.stage().play().scene)) {}
+
+std::vector<std::string> Planning::designs() const {
+  std::vector<std::string> names;
+  for (const scene::Node* node : design::designs_of(visit_.live())) names.push_back(node->text("name"));
+  return names;
+}
+
+void Planning::open(const std::string& design) {
+  house::Play& play = visit_.stage().play();
+  const auto heights = [surfaces = surfaces_](glm::dvec2 at, const design::Names& without) {
+    return surfaces->resting_height(at, without);
+  };
+  Result<design::Session> session = design::Session::open(play.scene, play.live(), design, heights);
+  if (!session) return visit_.notice_error(to_string(session.errors()));
+  desk_ = std::make_unique<Desk>(play, *std::move(session), *surfaces_);
+  if (play.scene.file.empty()) return;
+  const Result<std::string> restored =
+      desk_->session.keep_journal(design::journal_file(play.scene.file, desk_->session.name()));
+  if (!restored)
+    visit_.notice_error(to_string(restored.errors()));
+  else if (!restored->empty())
+    visit_.notice(*restored);
+}
+
+/// Walking keeps to the ground, climbs steps and stops at walls.
+static std::optional<glm::vec3> step_on_foot(design::SceneSurfaces& surfaces, glm::vec3 from, glm::vec3 to) {
+  constexpr float shoulders_m = 0.3f, max_step_m = 0.4f, max_fall_m = 1.2f;
+  const glm::vec2 way = glm::vec2(to - from);
+  const float length_m = glm::length(way);
+  if (length_m < 1e-6f) return to;
+  const glm::vec3 ahead(way / length_m, 0.0f);
+  for (const float above_feet_m : {0.6f, 1.3f}) {
+    const glm::vec3 origin = from + glm::vec3(0.0f, 0.0f, above_feet_m - eye_m);
+    if (surfaces.first_along({origin, ahead, 0.0f, length_m + shoulders_m})) return std::nullopt;
+  }
+  const glm::vec3 knees = to + glm::vec3(0.0f, 0.0f, max_step_m - eye_m);
+  const auto below = surfaces.first_along({knees, {0.0f, 0.0f, -1.0f}, 0.0f, max_step_m + max_fall_m});
+  if (!below) return to;  // nothing to stand on: the eye keeps its height
+  return glm::vec3(to.x, to.y, float(below->position.z) + eye_m);
+}
+
+void Planning::turn_on(bool on) {
+  if (on && !desk_) open("");
+  is_on_ = on && desk_;
+  if (!is_on_ && desk_) desk_->tool.choose(planner::Mode::select);
+  visit_.navigation().on_foot = {};
+  if (is_on_)
+    visit_.navigation().on_foot = [surfaces = surfaces_](glm::vec3 from, glm::vec3 to) {
+      return step_on_foot(*surfaces, from, to);
+    };
+}
+
+void Planning::open_design(const std::string& name) {
+  for (const scene::Node* node : design::designs_of(visit_.live()))
+    visit_.live().set(*node, "visible", node->text("name") == name);
+  desk_.reset();
+  open(name);
+}
+
+bool Planning::tell(const Status& status) {
+  if (!status) visit_.notice_error(to_string(status.errors()));
+  return status.ok();
+}
+
+bool Planning::run(const std::string& command) { return desk_ && tell(desk_->session.run(command)); }
+
+void Planning::undo() {
+  if (!desk_) return;
+  desk_->tool.choose(planner::Mode::select);
+  const std::string what = desk_->session.done().empty() ? "" : desk_->session.done().back().sentence;
+  if (tell(desk_->session.undo())) visit_.notice(word("Undo") + ": " + what);
+}
+
+void Planning::redo() {
+  if (desk_ && tell(desk_->session.redo()))
+    visit_.notice(word("Redo") + ": " + desk_->session.done().back().sentence);
+}
+
+void Planning::save() {
+  if (!desk_) return;
+  const std::filesystem::path scene = visit_.scene().file;
+  if (scene.empty()) return visit_.notice_error("this scene has no file beside which the design could lie");
+  std::filesystem::path file = design::file_of(desk_->session);
+  if (file.empty()) file = new_file(scene, desk_->session.name());
+  if (!tell(design::save(desk_->session, scene, file)) || !tell(desk_->session.note_saved())) return;
+  saved_at_ = time_now();
+  visit_.notice(fmt::format("{} {}", word("saved"), file.filename().string()));
+}
+
+void Planning::look(PlanningView view) {
+  const Camera now = visit_.camera();
+  waits_for_balcony_ = view == PlanningView::balcony;
+  if (view == PlanningView::balcony) return;
+  if (view == PlanningView::street) {
+    if (!now.parallel) return;
+    if (street_view_) return visit_.fly_to(*street_view_);
+    const Result<Camera> first = visit_.stage().camera("");
+    if (first) visit_.fly_to(*first);
+    return;
+  }
+  if (now.parallel) return;
+  street_view_ = now;
+  // What the eye looks at becomes the middle of the plan.
+  const reference::Ray ray{now.position_in_world(), now.forward_in_world()};
+  const auto seen = surfaces_->first_along(ray);
+  const double reach_m = seen ? std::min(60.0, glm::distance(seen->position, glm::dvec3(ray.origin))) : 20.0;
+  const glm::vec3 middle = ray.origin + float(reach_m) * ray.direction;
+  Camera plan;
+  plan.parallel = ParallelView{std::max(24.0f, 1.6f * float(reach_m)), 300.0f};
+  plan.world_from_camera =
+      look_at({middle.x, middle.y, 300.0f}, {middle.x, middle.y, 0.0f}, {0.0f, 1.0f, 0.0f});
+  visit_.fly_to(plan);
+}
+
+bool Planning::stand_at(const planner::Pointer& pointer) {
+  const reference::Ray ray =
+      reference::camera_ray(pointer.camera, pointer.size.x, pointer.size.y, glm::vec2(pointer.pixel));
+  const auto place = surfaces_->first_along(ray);
+  if (!place || std::abs(place->normal.z) > 0.5f) return false;
+  waits_for_balcony_ = false;
+  const glm::vec3 away = glm::normalize(glm::vec3(place->normal.x, place->normal.y, 0.0f));
+  const glm::vec3 eye = glm::vec3(place->position) + stands_before_wall_m * away;
+  if (!visit_.camera().parallel) street_view_ = visit_.camera();
+  Camera camera;
+  camera.vertical_fov = glm::radians(60.0f);
+  camera.world_from_camera = look_at(eye, eye + away - glm::vec3(0.0f, 0.0f, 0.35f));
+  visit_.set_mode(Mode::fly);
+  visit_.fly_to(camera);
+  return true;
+}
+
+void Planning::keep_view(int number) {
+  kept_views_[number] = visit_.camera();
+  visit_.notice(fmt::format("{} {}", word("saved"), number));
+}
+
+void Planning::go_to_view(int number) {
+  if (const auto kept = kept_views_.find(number); kept != kept_views_.end()) visit_.fly_to(kept->second);
+}
+
+void Planning::frame_selection() {
+  if (!desk_ || desk_->session.selected().empty()) return;
+  Bounds all;
+  for (const design::PlacedObject& object : desk_->session.objects())
+    if (std::ranges::count(desk_->session.selected(), object.name) > 0)
+      for (const glm::dvec2 corner : object.outline) {
+        all.add(glm::vec3(glm::vec2(corner), float(object.position.z)));
+        all.add(glm::vec3(glm::vec2(corner), float(object.position.z + object.size_m.z)));
+      }
+  const float radius = std::max(all.radius(), 0.5f);
+  Camera camera = visit_.camera();
+  if (camera.parallel) {
+    camera.parallel->height_m = 4.0f * radius;
+    camera.world_from_camera[3] = glm::vec4(glm::vec2(all.centre()), camera.world_from_camera[3].z, 1.0f);
+    return visit_.fly_to(camera);
+  }
+  const float away_m = 1.6f * radius / std::tan(0.5f * camera.vertical_fov);
+  glm::vec3 ahead = camera.forward_in_world();
+  ahead = glm::normalize(glm::vec3(ahead.x, ahead.y, std::min(ahead.z, -0.2f)));
+  camera.world_from_camera = look_at(all.centre() - away_m * ahead, all.centre());
+  visit_.fly_to(camera);
+}
+
+void Planning::step(float seconds, bool pointer_moves) {
+  constexpr float settles_after_s = 0.7f;
+  if (!is_on_) return;
+  const glm::mat4 eye = visit_.camera().world_from_camera;
+  const bool eye_moves = std::exchange(eye_, eye) != eye;
+  quiet_s_ = pointer_moves ? 0.0f : quiet_s_ + seconds;
+  if (eye_moves || quiet_s_ > settles_after_s) desk_->tool.settle();
+}
+
+void Planning::draw_held(int width, int height) {
+  const design::Preview& preview = desk_->tool.preview();
+  visit_.stage().draw_held(visit_.camera(), width, height, preview.what_stays(), preview.scene());
+}
+
+}  // namespace parvis::viewer

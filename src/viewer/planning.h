@@ -1,0 +1,92 @@
+// A visit as a planner: the designs of the scene, the tool on one of them, and the views in which it works.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planning/planner/tool.h"
+#include "planning/planner/words.h"
+#include "viewer/visit.h"
+
+namespace parvis::viewer {
+
+/// Which of the planner's views one looks from.
+enum class PlanningView : unsigned char { plan, street, balcony };
+
+/// State and operations of planning in a visit. Failures become notices.
+class Planning {
+ public:
+  /// The visit outlives it.
+  Planning(Visit& visit, planner::Language language);
+
+  /// Is the tool in hand? Its bars are shown then.
+  bool is_on() const { return is_on_; }
+  /// Takes it up or puts it away. Taking it up opens the scene's first design, with its journal.
+  void turn_on(bool on);
+  bool shows_catalogue = false;  ///< along the lower edge
+
+  planner::Tool* tool() { return desk_ ? &desk_->tool : nullptr; }          ///< null: no design is open
+  design::Session* session() { return desk_ ? &desk_->session : nullptr; }  ///< null: no design is open
+  Visit& visit() { return visit_; }                                         ///< as given
+  /// Names of the scene's designs.
+  std::vector<std::string> designs() const;
+  /// Opens another design, shows it and hides the others.
+  void open_design(const std::string& name);
+
+  /// Runs a command of the session; an error becomes a notice.
+  bool run(const std::string& command);
+  /// Tells an error; false: there was one.
+  bool tell(const Status& status);
+  void undo();
+  void redo();
+  /// Writes the design into its file, or beside the scene where it has none.
+  void save();
+  /// When it was saved last, "12:03:07"; empty: never.
+  const std::string& saved_at() const { return saved_at_; }
+
+  /// Takes a view; the flight there keeps the horizon.
+  void look(PlanningView view);
+  /// The next click on a wall takes the eye there.
+  bool waits_for_balcony() const { return waits_for_balcony_; }
+  /// Stands at a wall that the pointer shows, looking away from it. False: it shows none.
+  bool stand_at(const planner::Pointer& pointer);
+  /// Keeps the present view under a number 1 to 9, and goes to it.
+  void keep_view(int number);
+  void go_to_view(int number);
+  /// Frames what is selected.
+  void frame_selection();
+
+  /// A word of the tool in the planner's language.
+  std::string word(std::string_view english) const { return planner::in_language(english, language_); }
+  /// Does anything hang on the pointer or move? The scene stands still meanwhile.
+  bool holds_things() { return is_on_ && tool() && !tool()->preview().is_empty(); }
+  /// Time passes in which the eye moves, the pointer moves, or neither: what was placed settles then.
+  void step(float seconds, bool pointer_moves);
+  /// Draws the frame with what is held.
+  void draw_held(int width, int height);
+
+ private:
+  /// One design on the table.
+  struct Desk {
+    design::Session session;
+    planner::Tool tool;
+    Desk(house::Play& play, design::Session opened, design::SceneSurfaces& surfaces)
+        : session(std::move(opened)), tool(play.scene, play.live(), session, surfaces) {}
+  };
+  void open(const std::string& design);
+
+  Visit& visit_;
+  planner::Language language_;
+  std::shared_ptr<design::SceneSurfaces> surfaces_;
+  bool is_on_ = false, waits_for_balcony_ = false;
+  std::unique_ptr<Desk> desk_;
+  std::optional<Camera> street_view_;  ///< to which one comes back
+  std::map<int, Camera> kept_views_;
+  std::string saved_at_;
+  float quiet_s_ = 0.0f;  ///< for how long the pointer has rested
+  glm::mat4 eye_{1.0f};   ///< in the last step
+};
+
+}  // namespace parvis::viewer

@@ -1,0 +1,45 @@
+// The planner's bars about the picture: tools at the left edge, views and designs above, the catalogue and
+// what the next click does below; and the inspector, a page of the panel.
+#pragma once
+
+#include <string>
+
+#include "viewer/kind_pictures.h"
+#include "viewer/overlay.h"
+#include "viewer/panel_rows.h"
+#include "viewer/planning.h"
+
+namespace parvis::viewer {
+
+class PlanningBars {
+ public:
+  /// Both outlive it. `pictures`: where pictures of the catalogue are kept; empty: nowhere.
+  PlanningBars(const ImguiContext& imgui, Planning& planning, std::filesystem::path pictures);
+
+  /// Between ImguiContext's begin_frame and draw: all bars and the overlay about a picture of this width, in
+  /// ImGui's units. Nothing where the tool is put away.
+  void draw(float picture_width);
+  /// Rows of what is selected, within a window of the panel.
+  void draw_inspector(PanelRows& rows);
+  /// Rectangles of the widgets of the last frame.
+  const Places& places() const { return places_; }
+
+ private:
+  bool button(const std::string& name, const char* key, bool is_lit, float width);
+  void draw_icon(int icon, ImVec2 low, float side, ImU32 colour) const;
+  void draw_tools(float height);
+  void draw_views(float width);
+  void draw_hint(float width);
+  void draw_catalogue(float width);
+  void draw_colours(PanelRows& rows, const design::PlacedObject& first, const std::string& names);
+  void draw_lengths(PanelRows& rows, const design::PlacedObject& first);
+
+  const ImguiContext& imgui_;
+  Planning& planning_;
+  Overlay overlay_;
+  KindPictures pictures_;
+  std::string search_, tab_ = "all";
+  Places places_;
+};
+
+}  // namespace parvis::viewer
