@@ -20,6 +20,7 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
@@ -32,25 +33,41 @@
 
 namespace {
 
-/// Where Parvis's own code lies.
-std::uintptr_t text_begin = 0, text_end = 0;
+/// Where Parvis's own code lies: in the program, in the library of base and in modules.
+struct Text {
+  std::uintptr_t begin = 0, end = 0;
+};
+std::array<Text, 32> texts;
+std::size_t text_count = 0;
 std::atomic<bool> is_running = false;
 std::atomic<long> allocations = 0;
 char* struck = nullptr;  ///< in a file that is mapped: workers share it, and it stays when the program is ended
 
-int find_text(dl_phdr_info* info, std::size_t, void*) {
-  for (int i = 0; i < info->dlpi_phnum; ++i) {
+int find_text(dl_phdr_info* info, std::size_t, void* is_program) {
+  bool& is_first = *static_cast<bool*>(is_program);  // the program comes first
+  const bool is_parvis = is_first || std::strstr(info->dlpi_name, "/libparvis_base.so") || std::strstr(info->dlpi_name, "/parvis_");
+  is_first = false;
+  for (int i = 0; is_parvis && i < info->dlpi_phnum && text_count < texts.size(); ++i) {
     const auto& part = info->dlpi_phdr[i];
     if (part.p_type != PT_LOAD || (part.p_flags & PF_X) == 0) continue;
-    text_begin = info->dlpi_addr + part.p_vaddr;
-    text_end = text_begin + part.p_memsz;
+    const std::uintptr_t begin = info->dlpi_addr + part.p_vaddr;
+    texts[text_count++] = {begin, begin + part.p_memsz};
   }
-  return 1;  // the program comes first
+  return 0;
+}
+
+void find_texts() {
+  bool is_first = true;
+  text_count = 0;
+  dl_iterate_phdr(find_text, &is_first);
 }
 
 bool is_ours(const void* caller) {
   const auto at = reinterpret_cast<std::uintptr_t>(caller);
-  return is_running && at >= text_begin && at < text_end;
+  if (!is_running) return false;
+  for (std::size_t i = 0; i < text_count; ++i)
+    if (at >= texts[i].begin && at < texts[i].end) return true;
+  return false;
 }
 
 /// A fault of the environment, "name:value"; the value is a word or a number.
@@ -111,7 +128,7 @@ int counted_main(int count, char** arguments, char** environment) {
 }
 
 [[gnu::constructor]] void begin() {
-  dl_iterate_phdr(find_text, nullptr);
+  find_texts();
   const char* const file = std::getenv("PARVIS_FAULTS_STRUCK");
   const int mark = file == nullptr ? -1 : open(file, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (mark < 0 || ftruncate(mark, 1) != 0) return;
@@ -156,6 +173,13 @@ int __libc_start_main(int (*main)(int, char**, char**), int count, char** argume
   using Start = int(int (*)(int, char**, char**), int, char**, void (*)(), void (*)(), void (*)(), void*);
   real_main = main;
   return real<Start>("__libc_start_main")(counted_main, count, arguments, init, fini, rtld_fini, stack_end);
+}
+
+void* dlopen(const char* file, int mode) noexcept {
+  static auto* const original = real<void*(const char*, int)>("dlopen");
+  void* const opened = original(file, mode);
+  find_texts();  // a module
+  return opened;
 }
 
 ssize_t read(int file, void* bytes, std::size_t size) {

@@ -1,7 +1,5 @@
 #include "base/image_io.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -10,7 +8,7 @@
 #include "base/files.h"
 #include "base/isolated_process.h"
 #include "base/memory_budget.h"
-#include "base/picture_decoder.h"
+#include "base/openimageio_module.h"
 
 namespace parvis {
 namespace {
@@ -29,8 +27,6 @@ std::span<const std::uint8_t> bytes_of(std::string_view text) {
 /// In the worker: decodes `bytes` into `output`, without another copy of the pixels.
 template <class T>
 Status decode_into(std::string_view bytes, const std::string& name, IsolatedOutput& output) {
-  OIIO::attribute("threads", 1);  // the library's threads did not survive the fork
-  OIIO::attribute("exr_threads", -1);
   const PixelsFor<T> pixels_for = [&](int width, int height, int channels) -> Result<T*> {
     const PictureHeader header{width, height, channels};
     const std::size_t values = std::size_t(width) * std::size_t(height) * std::size_t(channels);
@@ -39,7 +35,10 @@ Status decode_into(std::string_view bytes, const std::string& name, IsolatedOutp
     std::memcpy(to.data(), &header, sizeof header);
     return reinterpret_cast<T*>(to.data() + sizeof header);
   };
-  return decode_image<T>(bytes_of(bytes), name, pixels_for);
+  if constexpr (std::is_same_v<T, float>)
+    return openimageio.call(&OpenImageIoFunctions::decode_float, bytes_of(bytes), name, pixels_for);
+  else
+    return openimageio.call(&OpenImageIoFunctions::decode_8, bytes_of(bytes), name, pixels_for);
 }
 
 /// The work of a worker. The input is the picture's name, a zero, and the file's bytes.
@@ -62,9 +61,8 @@ Status decode_file(std::string_view input, IsolatedOutput& output) {
 template <class T>
 Result<BasicImage<T>> decode_isolated(IsolatedWork work, const std::string& name, std::string_view rest,
                                       const IsolationLimits& limits = {}) {
-  std::string input = name + '\0';
-  input += rest;
-  const Result<IsolatedBytes> made = run_isolated(work, input, name, limits);
+  const std::string head = name + '\0';
+  const Result<IsolatedBytes> made = run_isolated(work, {head, rest}, name, limits);
   if (!made) return made.errors();
   PictureHeader header{};
   const std::span<const std::byte> bytes = made->bytes();
@@ -106,9 +104,58 @@ std::size_t make_finite(ImageF& image) {
   return replaced;
 }
 
+/// At the front of what is to be encoded; name and pixels follow.
+struct EncodedHeader {
+  int width, height, channels;
+  int name_bytes;  ///< a multiple of the size of a value, with zeros at the end: pixels are read in place
+};
+
+/// The work of a worker.
+template <class T>
+Status encode_pixels(std::string_view input, IsolatedOutput& output) {
+  EncodedHeader header{};
+  std::memcpy(&header, input.data(), sizeof header);
+  const std::string name(input.substr(sizeof header).data());
+  const PictureView<T> picture{
+      header.width, header.height, header.channels,
+      reinterpret_cast<const T*>(input.data() + sizeof header + std::size_t(header.name_bytes))};
+  Result<std::string> bytes = [&] {
+    if constexpr (std::is_same_v<T, float>)
+      return openimageio.call(&OpenImageIoFunctions::encode_float, picture, name);
+    else
+      return openimageio.call(&OpenImageIoFunctions::encode_8, picture, name);
+  }();
+  if (!bytes) return bytes.errors();
+  const std::span<std::byte> to = output.allocate(bytes->size());
+  if (to.size() != bytes->size())
+    return error("{}: there is no memory for its {} bytes", name, bytes->size());
+  std::memcpy(to.data(), bytes->data(), bytes->size());
+  return Done{};
+}
+
+/// What encoding may take beside what is usual, by the size of the pixels: the slowest format writes 2 MB a
+/// second.
+constexpr double encoding_s_per_mb = 5.0;
+
+template <class T>
+Result<std::string> encode_isolated(const BasicImage<T>& image, const std::string& name) {
+  const std::size_t name_bytes = (name.size() / sizeof(T) + 1) * sizeof(T);
+  const EncodedHeader header{image.width, image.height, image.channels, int(name_bytes)};
+  std::string head(reinterpret_cast<const char*>(&header), sizeof header);
+  head += name;
+  head.resize(sizeof header + name_bytes);
+  const std::string_view pixels(reinterpret_cast<const char*>(image.pixels.data()),
+                                image.pixels.size() * sizeof(T));
+  IsolationLimits limits{.writes = true};
+  limits.seconds += encoding_s_per_mb * 1e-6 * double(pixels.size());
+  const Result<IsolatedBytes> made = run_isolated(encode_pixels<T>, {head, pixels}, name, limits);
+  if (!made) return made.errors();
+  return std::string(reinterpret_cast<const char*>(made->bytes().data()), made->bytes().size());
+}
+
 template <class T>
 Status write(const fs::path& file, const BasicImage<T>& image) {
-  const Result<std::string> bytes = encode_image(image, file.string());
+  const Result<std::string> bytes = encode_isolated(image, file.string());
   return bytes ? write_file(file, *bytes) : Status(bytes.errors());
 }
 
@@ -127,6 +174,14 @@ Result<ImageF> read_image_float(const fs::path& file, std::size_t* replaced) {
   const std::size_t count = make_finite(*image);
   if (replaced != nullptr) *replaced = count;
   return image;
+}
+
+Result<std::string> encode_image(const Image8& image, const std::string& name) {
+  return encode_isolated(image, name);
+}
+
+Result<std::string> encode_image(const ImageF& image, const std::string& name) {
+  return encode_isolated(image, name);
 }
 
 Status write_image(const fs::path& file, const Image8& image) { return write(file, image); }

@@ -1,12 +1,13 @@
-// Pictures in and out of files. Those of users are decoded in a child process (isolated_process.h): a file
-// that makes the picture library crash or hang is an error that names it.
+// Pictures in and out of files. They are decoded and encoded in a child process (isolated_process.h): a file
+// that makes the picture library crash or hang is an error that names it, and the library, which brings a
+// hundred others along, stays out of the program.
 #pragma once
 
 #include <filesystem>
 #include <span>
+#include <string>
 
 #include "base/image.h"
-#include "base/picture_codec.h"
 #include "base/result.h"
 
 namespace parvis {
@@ -20,6 +21,11 @@ Result<Image8> read_image8(std::span<const std::uint8_t> bytes, const std::strin
 /// finite: what is no number becomes 0, what is infinite the picture's largest number. `replaced`: how many
 /// of them there were.
 Result<ImageF> read_image_float(const std::filesystem::path& file, std::size_t* replaced = nullptr);
+
+/// The file's bytes, in the format of `name`'s extension: 8 bits per channel.
+Result<std::string> encode_image(const Image8& image, const std::string& name);
+/// The same in linear float.
+Result<std::string> encode_image(const ImageF& image, const std::string& name);
 
 /// Writes by the extension (.png, .jpg, ...: 8 bits per channel). The file appears whole or not at all.
 Status write_image(const std::filesystem::path& file, const Image8& image);

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -18,10 +19,12 @@
 #include <mutex>
 #include <new>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "base/descriptor.h"
 #include "base/memory_budget.h"
+#include "base/module.h"
 #include "base/process_limits.h"
 
 namespace parvis {
@@ -33,8 +36,26 @@ enum class Outcome : char {
   done = 'd',
   failed = 'f',
   gave_up = 'g',
-  out_of_memory = 'm'
+  out_of_memory = 'm',
+  lacks_module = 'l'  ///< its name follows
 };
+
+/// The name of a module as it travels, ended by a zero; empty: none.
+using ModuleName = std::array<char, 32>;
+constexpr int max_modules = 8;  ///< that one work may ask for
+
+ModuleName module_name(std::string_view name) {
+  ModuleName letters{};
+  std::ranges::copy(name.substr(0, letters.size() - 1), letters.begin());
+  return letters;
+}
+
+/// What a worker sends is not trusted: the name becomes that of a file.
+bool is_module_name(const ModuleName& name) {
+  const auto end = std::ranges::find(name, '\0');
+  return end != name.begin() && end != name.end() &&
+         std::all_of(name.begin(), end, [](char c) { return c >= 'a' && c <= 'z'; });
+}
 
 /// A request as it travels to the server, with three descriptors: input, output, status.
 struct Request {
@@ -42,6 +63,7 @@ struct Request {
   std::uint64_t memory_bytes;
   double seconds;
   bool isolates_inner_work;      ///< in processes of its own; else it runs in the worker
+  ModuleName module;             ///< that the server loads first
   std::uint32_t readable_bytes;  ///< of the input's front: paths that may be read, each ended by a zero
 };
 
@@ -215,6 +237,10 @@ Descriptor forked_spare(int server_socket) {
   Descriptors descriptors{};
   Descriptor spare = forked_spare(socket);
   while (receive_request(socket, request, descriptors)) {
+    if (request.module[0] != '\0') {
+      std::ignore = module_functions(request.module.data());  // workers report what it says
+      spare = Descriptor();                                   // it has no such module
+    }
     if (!spare || !send_request(spare.get(), request, descriptors)) {  // none, or somebody has ended it
       spare = forked_spare(socket);
       if (spare) send_request(spare.get(), request, descriptors);
@@ -316,7 +342,8 @@ enum class End { whole, crashed, late, not_started };
 
 struct Attempt {
   End end = End::not_started;
-  Outcome outcome{};  ///< of one that is whole
+  Outcome outcome{};   ///< of one that is whole
+  ModuleName lacks{};  ///< the module that its outcome speaks of
   bool has_inner_work = false;
   int open_inner_works = 0;  ///< that had not returned at its end
   Descriptor made;           ///< the file in memory with its output
@@ -325,22 +352,27 @@ struct Attempt {
   int cause = 0;         ///< errno of one that was not started
 };
 
+using Input = std::array<std::string_view, 2>;
+
 /// In this process.
-Attempt run_here(IsolatedWork work, std::string_view input) {
+Attempt run_here(IsolatedWork work, const Input& input) {
   Attempt attempt;
   attempt.memory_bytes = memory_left();
   attempt.made = memory_file("output");
   attempt.cause = errno;
   if (!attempt.made) return attempt;
   IsolatedOutput output(attempt.made.get());
-  attempt.outcome = carry_out(work, input, output);
+  std::string joined;
+  if (!input[1].empty()) joined.append(input[0]).append(input[1]);
+  attempt.outcome = carry_out(work, joined.empty() ? input[0] : joined, output);
   attempt.end = End::whole;
   return attempt;
 }
 
-/// In a worker, whose own calls of run_isolated start workers, too, where `isolates_inner`.
-Attempt run_in_worker(IsolatedWork work, std::string_view input, const IsolationLimits& limits,
-                      bool isolates_inner) {
+/// In a worker that has `module`, and whose own calls of run_isolated start workers, too, where
+/// `isolates_inner`.
+Attempt run_in_worker(IsolatedWork work, const Input& input, const IsolationLimits& limits,
+                      bool isolates_inner, const ModuleName& module) {
   start_isolation();
   Attempt attempt;
   attempt.memory_bytes = std::min(limits.memory_bytes, memory_left());
@@ -353,11 +385,11 @@ Attempt run_in_worker(IsolatedWork work, std::string_view input, const Isolation
   const Descriptor status_out(status[0]);
   Descriptor status_in(status[1]);
   attempt.seconds = is_worker ? seconds_of_inner_work(limits.seconds) : limits.seconds;
-  const Request request{work, attempt.memory_bytes, attempt.seconds, isolates_inner,
-                        std::uint32_t(readable.size())};
+  const Request request{work,   attempt.memory_bytes,          attempt.seconds, isolates_inner,
+                        module, std::uint32_t(readable.size())};
   warn_without_landlock();
   if (!given || !attempt.made || !has_pipe || !write_all(given.get(), readable) ||
-      !write_all(given.get(), input) ||
+      !write_all(given.get(), input[0]) || !write_all(given.get(), input[1]) ||
       !start_worker(request, {given.get(), attempt.made.get(), status_in.get()})) {
     attempt.cause = errno;
     return attempt;
@@ -375,31 +407,51 @@ Attempt run_in_worker(IsolatedWork work, std::string_view input, const Isolation
     attempt.open_inner_works += attempt.outcome == Outcome::begins_inner_work ? 1 : -1;
     has_ended = receive(status_out.get(), attempt.outcome, deadline, is_late);
   }
+  if (has_ended && attempt.outcome == Outcome::lacks_module)
+    has_ended = receive(status_out.get(), attempt.lacks, deadline, is_late) && is_module_name(attempt.lacks);
   attempt.end = has_ended ? End::whole : is_late ? End::late : End::crashed;
   if (is_late && has_started) kill(started.worker, SIGKILL);
   return attempt;
 }
 
+/// In workers that have the modules that the work asks for, one after the other.
+Attempt run_with_modules(IsolatedWork work, const Input& input, const IsolationLimits& limits,
+                         bool isolates_inner) {
+  ModuleName module{};
+  for (int asked = 0;; ++asked) {
+    Attempt attempt = run_in_worker(work, input, limits, isolates_inner, module);
+    if (attempt.end != End::whole || attempt.outcome != Outcome::lacks_module) return attempt;
+    if (is_worker) end_worker_without(attempt.lacks.data());
+    module = attempt.lacks;
+    if (asked < max_modules) continue;
+    attempt.end = End::crashed;
+    return attempt;
+  }
+}
+
 /// What the caller gets of it.
-Result<IsolatedBytes> result_of(Attempt attempt, const std::string& subject) {
+Result<IsolatedBytes> result_of(Attempt attempt, const std::string& subject, bool writes) {
+  const std::string_view worker = writes ? "writer" : "reader";
   if (attempt.end == End::not_started)
-    return error("{}: no child process can be started for its reader ({})", subject,
+    return error("{}: no child process can be started for its {} ({})", subject, worker,
                  std::strerror(attempt.cause));
   if (attempt.end == End::late)
-    return error("{}: its reader took more than {:.0f} s and was ended", subject, attempt.seconds);
+    return error("{}: its {} took more than {:.0f} s and was ended", subject, worker, attempt.seconds);
+  if (attempt.end == End::crashed && writes)
+    return error("{}: its writer crashed; choose another format or a smaller picture", subject);
   if (attempt.end == End::crashed)
     return error("{}: its reader crashed; the file is damaged or made to do harm", subject);
   if (attempt.outcome == Outcome::out_of_memory)
     return error(
-        "{}: reading it needs more than {:.1f} GB of memory; use a smaller one, or allow more with "
+        "{}: {} it needs more than {:.1f} GB of memory; use a smaller one, or allow more with "
         "--max-memory",
-        subject, double(attempt.memory_bytes) / 1e9);
+        subject, writes ? "writing" : "reading", double(attempt.memory_bytes) / 1e9);
   IsolatedBytes result(attempt.made.release());
   if (attempt.outcome == Outcome::gave_up) {
     const std::string_view reason(reinterpret_cast<const char*>(result.bytes().data()),
                                   result.bytes().size());
-    return error("{}: its reader gave up{}{}; the file is damaged", subject, reason.empty() ? "" : ": ",
-                 reason);
+    return error("{}: its {} gave up{}{}{}", subject, worker, reason.empty() ? "" : ": ", reason,
+                 writes ? "" : "; the file is damaged");
   }
   if (attempt.outcome == Outcome::failed) return errors_of(result.bytes(), subject);
   return result;
@@ -435,6 +487,13 @@ IsolatedBytes::~IsolatedBytes() {
 
 bool is_in_worker() { return is_worker; }
 
+void end_worker_without(std::string_view module) {
+  const ModuleName name = module_name(module);
+  const bool is_noted = note(Outcome::lacks_module) &&
+                        ::write(status_of_worker, name.data(), name.size()) == ssize_t(name.size());
+  _exit(is_noted ? 0 : 1);
+}
+
 std::uint64_t begun_workers() { return worker_count(); }
 
 void start_isolation() {
@@ -443,6 +502,11 @@ void start_isolation() {
 
 Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, const std::string& subject,
                                    const IsolationLimits& limits) {
+  return run_isolated(work, Input{input, {}}, subject, limits);
+}
+
+Result<IsolatedBytes> run_isolated(IsolatedWork work, const std::array<std::string_view, 2>& input,
+                                   const std::string& subject, const IsolationLimits& limits) {
   if (const IsolatedWork other = std::exchange(other_work, nullptr)) {
     IsolationLimits shorter = limits;
     shorter.seconds = std::min(limits.seconds, max_seconds_of_other_work);
@@ -457,14 +521,14 @@ Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, co
     if (note(Outcome::begins_inner_work)) attempt = run_here(work, input);
     note(Outcome::ended_inner_work);
   } else {
-    attempt = run_in_worker(work, input, limits, false);
+    attempt = run_with_modules(work, input, limits, false);
     // The reader of a model is not lost with one of its pictures: once more, each picture in its own process.
     const bool is_lost = attempt.end == End::late
                              ? attempt.open_inner_works > 0
                              : attempt.outcome != Outcome::done && attempt.outcome != Outcome::failed;
-    if (attempt.has_inner_work && is_lost) attempt = run_in_worker(work, input, limits, true);
+    if (attempt.has_inner_work && is_lost) attempt = run_with_modules(work, input, limits, true);
   }
-  return result_of(std::move(attempt), subject);
+  return result_of(std::move(attempt), subject, limits.writes);
 }
 
 WithoutIsolation::WithoutIsolation() { ++without_isolation; }

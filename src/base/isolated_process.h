@@ -5,9 +5,11 @@
 // forks the workers, so that none inherits a lock that another thread holds. One worker is always forked
 // already and waits: a call does not wait for the copy of the page tables. A worker has
 // limits on memory and time and, where the kernel has Landlock, opens no file except below the folders that
-// the call names.
+// the call names. Modules (module.h) that workers need are loaded once, in the server, so that every later
+// worker has them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -25,8 +27,9 @@ namespace parvis {
 struct IsolationLimits {
   /// Beyond what the program holds; less where the budget (memory_budget.h) has less left.
   std::uint64_t memory_bytes = std::uint64_t{8} << 30;
-  double seconds = 120.0;                       ///< by the wall clock
-  std::vector<std::filesystem::path> readable;  ///< folders and files that may be opened for reading
+  double seconds = 120.0;                            ///< by the wall clock
+  std::vector<std::filesystem::path> readable = {};  ///< folders and files that may be opened for reading
+  bool writes = false;  ///< the work makes a file of its input: errors speak of a writer
 };
 
 /// Memory that a worker fills and its caller reads, without a copy between them.
@@ -80,6 +83,10 @@ void start_isolation();
 Result<IsolatedBytes> run_isolated(IsolatedWork work, std::string_view input, const std::string& subject,
                                    const IsolationLimits& limits = {});
 
+/// The same on two pieces of input, the second after the first, which are not copied into one before.
+Result<IsolatedBytes> run_isolated(IsolatedWork work, const std::array<std::string_view, 2>& input,
+                                   const std::string& subject, const IsolationLimits& limits = {});
+
 /// While one exists, the work of its thread runs in this very process: a baseline for measurements of what
 /// isolation costs, and for nothing else.
 class WithoutIsolation {
@@ -103,6 +110,10 @@ class WithOtherWork {
 
 /// Whether this process is a worker, which ends without destructors.
 bool is_in_worker();
+
+/// Ends this worker, which can load nothing itself: its work begins again in one that has the module
+/// (module.h). Work that takes long asks for its modules first.
+[[noreturn]] void end_worker_without(std::string_view module);
 
 /// Deletes, but in a worker: its memory ends with it, and taking a large document apart takes nearly as long
 /// as reading it.

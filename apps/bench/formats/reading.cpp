@@ -8,7 +8,6 @@
 #include "base/files.h"
 #include "base/image_io.h"
 #include "base/isolated_process.h"
-#include "base/picture_codec.h"
 #include "base/test_data.h"
 #include "bench/parts.h"
 #include "formats/city_models/city_json.h"
@@ -174,13 +173,7 @@ void measure_isolation(const BenchSetup& setup, Report& report) {
         {"the p406", isolated(*car),
          [&] { return scene::read_with_assimp(*car, formats::UpAxis::file, warnings).ok(); }},
         {"a JPEG of 4096 x 2160 pixels", [&] { return read_image8(picture).ok(); },
-         [&] {
-           const Result<std::string> bytes = read_file(picture);
-           return bytes &&
-                  decode_image8({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()},
-                                "picture.jpg")
-                      .ok();
-         }}}) {
+         [&] { return read_image8(picture).ok(); }}}) {
     const Overhead of = overhead(in_child, here, repeats);
     if (!of.is_read) fail("{}: a file of the overhead of child processes cannot be read", name);
     if (of.workers_isolated <= of.workers_here)

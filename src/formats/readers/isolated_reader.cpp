@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/memory_budget.h"
+#include "base/openimageio_module.h"
 #include "base/sealed_file.h"
 #include "formats/readers/model_bytes.h"
 #include "formats/readers/packed_file.h"
@@ -25,6 +26,10 @@ constexpr std::uint64_t start_bytes = std::uint64_t{4} << 30, bytes_per_byte = 2
 
 /// What libraries read of the system: map projections.
 constexpr std::array system_folders{"/usr/share/proj", "/usr/share/gdal"};
+
+/// Of larger files the pictures are prepared for before the file is read: they would have all of it read
+/// again.
+constexpr std::uint64_t small_bytes = std::uint64_t{1} << 20;
 
 /// The part of `ModelReading` that travels.
 struct Order {
@@ -123,6 +128,7 @@ Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput
   if (order.has_cell) reading.cell_m = order.cell_m;
   reading.map = take_text(taker);
   const fs::path file = take_text(taker);
+  if (likely_content_bytes(file) > small_bytes) std::ignore = openimageio.functions();
   std::optional<glm::dvec2> place_deg;
   reading.place_deg = &place_deg;
   Errors warnings;

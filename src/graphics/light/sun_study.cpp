@@ -14,7 +14,6 @@
 #include "base/file_set.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
-#include "base/picture_codec.h"
 #include "formats/gltf/gltf_writer.h"
 #include "graphics/light/finer_mesh.h"
 #include "graphics/light/sun_plan.h"

@@ -1,6 +1,8 @@
-#include "base/picture_codec.h"
+#include "base/openimageio_module.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -12,13 +14,19 @@
 #include "base/checked.h"
 #include "base/colour.h"
 #include "base/memory_budget.h"
-#include "base/picture_decoder.h"
 #include "base/radiance_header.h"
 
 namespace parvis {
 namespace {
 
 using namespace std::string_view_literals;
+
+/// A format of pictures that Parvis reads and writes.
+struct PictureFormat {
+  std::string_view name;        ///< OpenImageIO's
+  std::string_view extensions;  ///< in lower case, each after a space
+  std::string_view magic;       ///< the file's first bytes, '?' for any; empty: known by extension
+};
 
 constexpr std::array formats{PictureFormat{"png", " png", "\x89PNG\r\n\x1a\n"sv},
                              PictureFormat{"jpeg", " jpg jpeg", "\xff\xd8\xff"sv},
@@ -53,6 +61,30 @@ bool begins_with(std::span<const std::uint8_t> bytes, const PictureFormat& forma
     if (bytes[i] != std::uint8_t(format.magic[i]) && !(format.name == "webp"sv && format.magic[i] == '?'))
       return false;
   return true;
+}
+
+/// By the first bytes; `name`'s extension decides only for formats without such bytes (TGA). Null for any
+/// other.
+const PictureFormat* format_of(std::span<const std::uint8_t> bytes, std::string_view name) {
+  const auto found = std::ranges::find_if(formats, [&](const PictureFormat& format) {
+    return format.magic.empty() ? has_extension(format, name) : begins_with(bytes, format);
+  });
+  return found == formats.end() || bytes.empty() ? nullptr : &*found;
+}
+
+/// By the extension of a file to be written, in any case; null where Parvis does not write such files.
+const PictureFormat* format_to_write(std::string_view name) {
+  const auto found = std::ranges::find_if(formats, [&](const PictureFormat& format) {
+    return format.name != "gif" && has_extension(format, name);
+  });
+  return found == formats.end() ? nullptr : &*found;
+}
+
+/// In a worker: threads that the library had before the fork are gone, and a limit on memory has no room for
+/// many.
+void use_one_thread() {
+  OIIO::attribute("threads", 1);
+  OIIO::attribute("exr_threads", -1);
 }
 
 Status check_size(const OIIO::ImageSpec& spec, std::size_t file_bytes, const std::string& name) {
@@ -96,7 +128,7 @@ struct OpenPicture {
 /// side by side.
 Result<OpenPicture> open_picture(std::span<const std::uint8_t> bytes, const std::string& name) {
   static std::mutex opening;
-  const PictureFormat* format = picture_format_of(bytes, name);
+  const PictureFormat* format = format_of(bytes, name);
   if (format == nullptr) return not_a_picture(name, bytes.empty() ? "it is empty" : "");
   const std::lock_guard lock(opening);
   OpenPicture open;
@@ -158,48 +190,8 @@ void move_pixels(const RadianceHeader& header, const std::vector<T>& from, const
 }
 
 template <class T>
-Result<std::string> encode(const BasicImage<T>& image, const std::string& name) {
-  const PictureFormat* format = picture_format_to_write(name);
-  if (format == nullptr)
-    return error("{}: no such pictures are written; choose .png, .jpg, .exr, .hdr, .tif, .bmp, .webp or .tga",
-                 name);
-  const auto output = OIIO::ImageOutput::create(std::string(format->name));
-  OIIO::Filesystem::IOVecOutput bytes;
-  const int channels =
-      format->name == "hdr"sv ? std::min(image.channels, 3) : image.channels;  // it has no alpha
-  OIIO::ImageSpec spec(image.width, image.height, channels, OIIO::BaseTypeFromC<T>::value);
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  spec.attribute("CompressionQuality", 92);
-  // The library would write the clock's: the same command gives the same bytes.
-  if (format->name == "openexr"sv) spec.attribute("DateTime", "2003:01:01 00:00:00");
-  const std::string file_name = "picture." + std::string(format->extensions.substr(1, 3));
-  if (!output || !output->set_ioproxy(&bytes) || !output->open(file_name, spec) ||
-      !output->write_image(OIIO::BaseTypeFromC<T>::value, image.pixels.data(),
-                           OIIO::stride_t(image.channels) * OIIO::stride_t(sizeof(T))) ||
-      !output->close())
-    return error("{}: cannot be encoded ({})", name, output ? output->geterror() : OIIO::geterror());
-  return std::string(bytes.buffer().begin(), bytes.buffer().end());
-}
-
-}  // namespace
-
-const PictureFormat* picture_format_of(std::span<const std::uint8_t> bytes, std::string_view name) {
-  const auto found = std::ranges::find_if(formats, [&](const PictureFormat& format) {
-    return format.magic.empty() ? has_extension(format, name) : begins_with(bytes, format);
-  });
-  return found == formats.end() || bytes.empty() ? nullptr : &*found;
-}
-
-const PictureFormat* picture_format_to_write(std::string_view name) {
-  const auto found = std::ranges::find_if(formats, [&](const PictureFormat& format) {
-    return format.name != "gif" && has_extension(format, name);
-  });
-  return found == formats.end() ? nullptr : &*found;
-}
-
-template <class T>
-Status decode_image(std::span<const std::uint8_t> bytes, const std::string& name,
-                    const PixelsFor<T>& pixels_for) {
+Status decode(std::span<const std::uint8_t> bytes, const std::string& name, const PixelsFor<T>& pixels_for) {
+  use_one_thread();
   constexpr bool is_float = std::is_same_v<T, float>;
   constexpr int channels = is_float ? 3 : 4;
   Result<OpenPicture> open = open_picture(bytes, name);
@@ -214,7 +206,7 @@ Status decode_image(std::span<const std::uint8_t> bytes, const std::string& name
     return status;
   const bool is_srgb = is_float && spec.format.basesize() == 1;
   const std::size_t values = std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(channels);
-  const bool is_radiance = picture_format_of(bytes, name)->name == "hdr"sv;
+  const bool is_radiance = format_of(bytes, name)->name == "hdr"sv;
   const RadianceHeader header = is_radiance ? radiance_header(bytes) : RadianceHeader{};
   const Result<T*> pixels = header.is_transposed ? pixels_for(spec.height, spec.width, channels)
                                                  : pixels_for(spec.width, spec.height, channels);
@@ -232,23 +224,47 @@ Status decode_image(std::span<const std::uint8_t> bytes, const std::string& name
   return Done{};
 }
 
-template Status decode_image(std::span<const std::uint8_t>, const std::string&,
-                             const PixelsFor<std::uint8_t>&);
-template Status decode_image(std::span<const std::uint8_t>, const std::string&, const PixelsFor<float>&);
-
-Result<Image8> decode_image8(std::span<const std::uint8_t> bytes, const std::string& name) {
-  Image8 image;
-  const PixelsFor<std::uint8_t> pixels_for = [&](int width, int height,
-                                                 int channels) -> Result<std::uint8_t*> {
-    image = Image8(width, height, channels);
-    return image.pixels.data();
-  };
-  if (Status status = decode_image<std::uint8_t>(bytes, name, pixels_for); !status) return status.errors();
-  return image;
+template <class T>
+Result<std::string> encode(const PictureView<T>& picture, const std::string& name) {
+  use_one_thread();
+  const PictureFormat* format = format_to_write(name);
+  if (format == nullptr)
+    return error("{}: no such pictures are written; choose .png, .jpg, .exr, .hdr, .tif, .bmp, .webp or .tga",
+                 name);
+  const auto output = OIIO::ImageOutput::create(std::string(format->name));
+  OIIO::Filesystem::IOVecOutput bytes;
+  const int channels =
+      format->name == "hdr"sv ? std::min(picture.channels, 3) : picture.channels;  // it has no alpha
+  OIIO::ImageSpec spec(picture.width, picture.height, channels, OIIO::BaseTypeFromC<T>::value);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  spec.attribute("CompressionQuality", 92);
+  // The library would write the clock's: the same command gives the same bytes.
+  if (format->name == "openexr"sv) spec.attribute("DateTime", "2003:01:01 00:00:00");
+  const std::string file_name = "picture." + std::string(format->extensions.substr(1, 3));
+  if (!output || !output->set_ioproxy(&bytes) || !output->open(file_name, spec) ||
+      !output->write_image(OIIO::BaseTypeFromC<T>::value, picture.pixels,
+                           OIIO::stride_t(picture.channels) * OIIO::stride_t(sizeof(T))) ||
+      !output->close())
+    return error("{}: cannot be encoded ({})", name, output ? output->geterror() : OIIO::geterror());
+  return std::string(bytes.buffer().begin(), bytes.buffer().end());
 }
 
-Result<std::string> encode_image(const Image8& image, const std::string& name) { return encode(image, name); }
+/// The letters in white on black: what OpenImageIO would blend with another colour.
+Result<TextCoverage> cover_text(const std::string& text, int height_px, const std::string& font_file) {
+  const OIIO::ROI around = OIIO::ImageBufAlgo::text_size(text, height_px, font_file);
+  TextCoverage covered;
+  if (!around.defined() || around.width() < 1 || around.height() < 1) return covered;
+  covered.corner = {around.xbegin, around.ybegin};
+  covered.coverage = Image8(around.width(), around.height(), 1);
+  OIIO::ImageBuf canvas(OIIO::ImageSpec(around.width(), around.height(), 1, OIIO::TypeDesc::UINT8),
+                        covered.coverage.pixels.data());
+  OIIO::ImageBufAlgo::render_text(canvas, -around.xbegin, -around.ybegin, text, height_px, font_file, {1.0f});
+  return covered;
+}
 
-Result<std::string> encode_image(const ImageF& image, const std::string& name) { return encode(image, name); }
-
+}  // namespace
 }  // namespace parvis
+
+PARVIS_MODULE(parvis::OpenImageIoFunctions){parvis::decode<std::uint8_t>, parvis::decode<float>,
+                                            parvis::encode<std::uint8_t>, parvis::encode<float>,
+                                            parvis::cover_text};

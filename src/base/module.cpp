@@ -1,0 +1,47 @@
+#include "base/module.h"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "base/isolated_process.h"
+
+namespace parvis {
+namespace {
+
+/// The folder of the library that holds this code, in which modules lie.
+std::filesystem::path module_folder() {
+  Dl_info here{};
+  dladdr(reinterpret_cast<const void*>(&module_functions), &here);
+  return std::filesystem::path(here.dli_fname).parent_path();
+}
+
+/// All symbols are bound at once: in the server, this spares every worker binding those that it calls.
+Result<const void*> load(std::string_view name) {
+  const std::filesystem::path file = module_folder() / fmt::format("parvis_{}.so", name);
+  void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  const void* const functions = module == nullptr ? nullptr : dlsym(module, "parvis_functions");
+  if (functions == nullptr)
+    return error(
+        "this needs a part of Parvis that cannot be loaded ({}); install the library that is missing, or "
+        "Parvis "
+        "once more",
+        dlerror());
+  return functions;
+}
+
+}  // namespace
+
+Result<const void*> module_functions(std::string_view name) {
+  static std::mutex mutex;
+  static std::map<std::string, Result<const void*>, std::less<>> loaded;
+  const std::scoped_lock lock(mutex);
+  if (const auto known = loaded.find(name); known != loaded.end()) return known->second;
+  if (is_in_worker()) end_worker_without(name);
+  return loaded.emplace(name, load(name)).first->second;
+}
+
+}  // namespace parvis
