@@ -46,6 +46,13 @@ constexpr Key keys[]{
     {"ground_gap_percent", "%", maximum(0.0), "pixels below the horizon that show no ground, 50 views, the greatest of ten places", {{"ground_gap_percent_without_plane"}}},
     {"pbf_mb_s", "MB/s", {}, "14,400 houses (62,500) as PBF, without isolation"},
     {"ifc_load_ms", "ms", {}, "scenes/pavilion.ifc in a child process"},
+    // plan
+    {"insert_to_picture_ms", "ms", maximum(150.0), "paper city, 1280x720: a bollard inserted, to its picture over the kept one, without shadow", {{"insert_to_whole_picture_ms"}}},
+    {"drag_fps", "fps", minimum(10.0), "the same view: a stone bench dragged over the kept picture, all pixels"},
+    {"drag_picture_flip", "FLIP", maximum(0.02), "the bench's pixels, held against drawn whole", {{"drag_picture_flip_3_cm_beside"}}},
+    {"plan_precision_mm", "mm", maximum(1.0), "40 bollards: rays to their sides against what was typed", {{"plan_precision_mm_to_the_centimetre"}}},
+    {"undo_replay_identical", "", minimum(1.0), "10,000 random commands (1,000): undone, redone, replayed from the journal", {{"undo_replay_identical_of_one_step_less"}}},
+    {"kill_loses_commands", "commands", maximum(0.0), "200 kills (20) at random moments", {{"kill_loses_commands_without_journal"}}},
     // reflections
     {"near_cost_ratio_rerendered_over_mem", "", minimum(10.0), "ten cars seen, one near, 1280x720; re-rendered maps at their best over the shipped method", {{"near_cost_ratio_rerendered_over_local"}}},
     {"near_flip_ratio_mem_over_rerendered", "", maximum(0.8), "the same views; FLIP over the baseline that is timed", {{"near_flip_ratio_none_over_rerendered"}}},

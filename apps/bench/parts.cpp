@@ -46,6 +46,8 @@ std::span<const Part> all_parts() {
       {"light", "sun_hours", "hours of sun against rays at each minute", measure_sun_hours, false},
       {"light", "shadows", "shadows of each technique against exact ones", measure_shadows},
       {"light", "shadow_times", "exact shadows of a picture beside its shadow maps", measure_shadow_times},
+      {"plan", "hand", "a bench that is dragged and placed in the paper's city", measure_plan},
+      {"plan", "files", "undo, replay and kills", measure_plan_files, false},
       {"vegetation", "grove", "points and lines of grown plants against their real geometry", measure_vegetation},
       {"facades", "sceaux", "the castle: held-out photographs, costs, times of drawing", measure_sceaux},
       {"facades", "courtyard", "the courtyard: held-out photographs", measure_courtyard},

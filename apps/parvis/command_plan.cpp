@@ -9,8 +9,10 @@
 #include <memory>
 
 #include "base/files.h"
+#include "base/known_names.h"
 #include "commands.h"
 #include "planning/design/design_file.h"
+#include "planning/design/difference.h"
 #include "planning/design/scene_surfaces.h"
 #include "planning/plan_drawing/plan_files.h"
 #include "scene_arguments.h"
@@ -26,6 +28,7 @@ struct Arguments {
   std::string design;
   std::vector<std::string> commands;
   std::filesystem::path command_file, import_json, output, json;
+  std::string compared;  ///< a design that the scene's is compared with
   bool lists_objects = false, lists_kinds = false, keeps_journal = false;
 };
 
@@ -40,6 +43,23 @@ void list_objects(const design::Session& session) {
     fmt::print("{:<18} {:<14} {:.3f},{:.3f},{:.3f} heading {:g}, {:g} x {:g} x {:g} m{}\n", object.name,
                object.kind, object.position.x, object.position.y, object.position.z, object.heading_deg,
                object.size_m.x, object.size_m.y, object.size_m.z, object.is_locked ? ", locked" : "");
+}
+
+/// What turns the other design into this one.
+Status list_differences(const design::Session& session, const house::Play& play, const std::string& other) {
+  std::vector<std::string> names;
+  for (const scene::Node* node : design::designs_of(play.live())) names.push_back(node->text("name"));
+  if (std::ranges::find(names, other) == names.end())
+    return error("the scene has no design \"{}\"{}", other.substr(0, 40), names_that_exist(other, names));
+  std::array<int, 4> counts{};
+  for (const design::Difference& each :
+       design::differences(design::placed_objects(play.scene, play.live(), other), session.objects())) {
+    fmt::print("{}\n", design::line_of(each));
+    ++counts[std::size_t(each.how)];
+  }
+  fmt::print("from \"{}\" to \"{}\": {} added, {} removed, {} moved, {} changed\n", other, session.name(),
+             counts[0], counts[1], counts[2], counts[3]);
+  return Done{};
 }
 
 /// The lines of a file; # begins a comment.
@@ -103,7 +123,7 @@ Status write_drawings(const Arguments& arguments, const house::Play& play) {
 }
 
 bool asks_for_nothing(const Arguments& a) {
-  return a.commands.empty() && !a.lists_objects && !a.lists_kinds && !a.keeps_journal &&
+  return a.commands.empty() && a.compared.empty() && !a.lists_objects && !a.lists_kinds && !a.keeps_journal &&
          std::ranges::all_of(
              std::array{&a.command_file, &a.import_json, &a.json, &a.output, &a.pdf, &a.dxf, &a.csv},
              [](const std::filesystem::path* file) { return file->empty(); });
@@ -136,6 +156,8 @@ Status plan(const Arguments& arguments) {
   }
   if (Status status = run_commands(arguments, *session); !status) return status;
   if (arguments.lists_objects) list_objects(*session);
+  if (!arguments.compared.empty())
+    if (Status status = list_differences(*session, *play, arguments.compared); !status) return status;
   if (!arguments.json.empty())
     if (Status status = write_file(arguments.json, design::json_of(play->scene, *session)); !status)
       return status;
@@ -167,6 +189,9 @@ void add_plan(CLI::App& app, Chosen& chosen) {
   command->add_option("--import", arguments->import_json,
                       "A design in JSON (docs/design.schema.json), before the commands");
   command->add_flag("--list", arguments->lists_objects, "Print the objects of the design");
+  command->add_option(
+      "--compare", arguments->compared,
+      "Print what this design adds, removes, moves and changes, against another of the scene");
   command->add_flag("--kinds", arguments->lists_kinds, "Print the kinds of objects that can be placed");
   command->add_flag(
       "--journal", arguments->keeps_journal,

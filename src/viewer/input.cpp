@@ -148,6 +148,9 @@ bool Input::press_planning(int key, int modifiers) {
     case GLFW_KEY_U:
       tool.choose(planner::Mode::surface);
       return true;
+    case GLFW_KEY_C:
+      planning_.compare_with_next();
+      return true;
     case GLFW_KEY_M:
       tool.choose(planner::Mode::measure);
       return true;

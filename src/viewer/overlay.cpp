@@ -1,6 +1,7 @@
 #include "viewer/overlay.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -164,6 +165,20 @@ void Overlay::draw_outline(const Pen& pen, const scene::Object& object, ImU32 co
     pen.list->AddPolyline(around.data(), int(around.size()), colour, ImDrawFlags_Closed, width * pen.scale);
 }
 
+/// The plan of an object, at its foot and its top.
+void Overlay::draw_prism(const Pen& pen, const design::PlacedObject& object, ImU32 colour, float width) {
+  const float low = float(object.position.z), high = low + float(object.size_m.z);
+  const std::size_t count = object.outline.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::vec2 a(object.outline[i]), b(object.outline[(i + 1) % count]);
+    pen.line(glm::vec3(a, low), glm::vec3(b, low), colour, width);
+    if (object.kind == "ground") continue;
+    pen.line(glm::vec3(a, high), glm::vec3(b, high), colour, width);
+    if (i % std::max<std::size_t>(count / 4, 1) == 0)
+      pen.line(glm::vec3(a, low), glm::vec3(a, high), colour, 0.5f * width);
+  }
+}
+
 /// Outlines an object of the design: its models, or, of a plant or a surface, its plan.
 void Overlay::draw_named(Planning& planning, const Pen& pen, const std::string& name, ImU32 colour,
                          float width) {
@@ -178,14 +193,19 @@ void Overlay::draw_named(Planning& planning, const Pen& pen, const std::string& 
       if (scene.objects[std::size_t(i)].is_visible)
         draw_outline(pen, scene.objects[std::size_t(i)], colour, width);
   if (node->schema->type == design::placed_type && !made.empty()) return;
-  const float low = float(object.position.z), high = low + float(object.size_m.z);
-  const std::size_t count = object.outline.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const glm::vec2 a(object.outline[i]), b(object.outline[(i + 1) % count]);
-    pen.line(glm::vec3(a, low), glm::vec3(b, low), colour, width);
-    if (node->schema->type != design::placed_type) continue;
-    pen.line(glm::vec3(a, high), glm::vec3(b, high), colour, width);
-    if (i % (count / 4) == 0) pen.line(glm::vec3(a, low), glm::vec3(a, high), colour, 0.5f * width);
+  draw_prism(pen, object, colour, width);
+}
+
+/// Added in green, removed in red, moved in blue with the way, changed in yellow.
+void Overlay::draw_differences(const Planning& planning, const Pen& pen) {
+  constexpr std::array colours{IM_COL32(96, 210, 110, 255), IM_COL32(235, 72, 60, 255),
+                               IM_COL32(96, 170, 255, 255), IM_COL32(240, 210, 90, 255)};
+  for (const design::Difference& each : planning.differences()) {
+    const ImU32 colour = colours[std::size_t(each.how)];
+    draw_prism(pen, each.shown(), colour, 2.0f);
+    if (each.how != design::Differs::moved) continue;
+    draw_prism(pen, each.before, IM_COL32(96, 170, 255, 120), 1.5f);
+    pen.dashes(each.before.position, each.after.position, colour);
   }
 }
 
@@ -217,6 +237,7 @@ void Overlay::draw(Planning& planning, ImVec2 size, float scale) {
       draw_named(planning, pen, name, chosen, 2.0f);
   if (!tool.pointed().empty() && std::ranges::count(planning.session()->selected(), tool.pointed()) == 0)
     draw_named(planning, pen, tool.pointed(), pointed, 1.5f);
+  draw_differences(planning, pen);
   draw_held(planning, pen);
   const std::vector<glm::dvec3> corners = tool.corners();
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) pen.line(corners[i], corners[i + 1], chosen, 2.0f);

@@ -1,6 +1,7 @@
 #include "viewer/planning.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -96,6 +97,27 @@ void Planning::open_design(const std::string& name) {
     visit_.live().set(*node, "visible", node->text("name") == name);
   desk_.reset();
   open(name);
+}
+
+void Planning::compare_with_next() {
+  if (!desk_) return;
+  std::vector<std::string> others = designs();
+  std::erase(others, desk_->session.name());
+  const auto now = std::ranges::find(others, compared_);
+  const auto next = now == others.end() ? others.begin() : now + 1;
+  compared_ = next == others.end() ? "" : *next;
+  if (others.empty()) return visit_.notice_error("this scene has no other design");
+  if (compared_.empty()) return;
+  std::array<int, 4> counts{};
+  for (const design::Difference& each : differences()) ++counts[std::size_t(each.how)];
+  visit_.notice(fmt::format("{} -> {}: +{} -{}, {} moved, {} changed", compared_, desk_->session.name(),
+                            counts[0], counts[1], counts[2], counts[3]));
+}
+
+std::vector<design::Difference> Planning::differences() const {
+  if (!desk_ || compared_.empty() || compared_ == desk_->session.name()) return {};
+  return design::differences(design::placed_objects(visit_.scene(), visit_.live(), compared_),
+                             desk_->session.objects());
 }
 
 bool Planning::tell(const Status& status) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "planning/design/difference.h"
 #include "planning/planner/tool.h"
 #include "planning/planner/words.h"
 #include "viewer/visit.h"
@@ -34,6 +35,14 @@ class Planning {
   std::vector<std::string> designs() const;
   /// Opens another design, shows it and hides the others.
   void open_design(const std::string& name);
+
+  /// Compares the open design with the next one of the scene, and with the one behind it the next time, and
+  /// at last with none.
+  void compare_with_next();
+  /// What the open design changes against the one that it is compared with; empty: it is compared with none.
+  std::vector<design::Difference> differences() const;
+  /// The design that it is compared with; empty: none.
+  const std::string& compared() const { return compared_; }
 
   /// Runs a command of the session; an error becomes a notice.
   bool run(const std::string& command);
@@ -84,7 +93,7 @@ class Planning {
   std::unique_ptr<Desk> desk_;
   std::optional<Camera> street_view_;  ///< to which one comes back
   std::map<int, Camera> kept_views_;
-  std::string saved_at_;
+  std::string saved_at_, compared_;
   float quiet_s_ = 0.0f;  ///< for how long the pointer has rested
   glm::mat4 eye_{1.0f};   ///< in the last step
 };
