@@ -101,6 +101,8 @@ class Frames {
     panel_.is_open = options.has_panel;
     visit_.notice("F1 shows the keys, F2 the panel");
     stage.hold_rate(rate_of(options, gl::is_software()));
+    // A camera that follows takes the view along until the visitor moves.
+    if (!options.camera.empty() && !visit_.actions().camera(visit_.scene())) visit_.look_from(options.camera);
   }
 
   Status run() {
