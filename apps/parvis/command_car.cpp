@@ -23,6 +23,21 @@ Result<scene::Model> read(const std::filesystem::path& file) {
   return model;
 }
 
+/// Says how large the car is, of which the file says no unit.
+void print_size(const scene::Model& model, const std::filesystem::path& file) {
+  constexpr float min_length_m = 3.0f, max_length_m = 7.0f, usual_length_m = 4.4f;
+  const glm::vec3 size = scene::bounds(model).size();
+  const float length = std::max(size.x, size.y);
+  fmt::print(stderr, "{}: {:.2f} m long, {:.2f} m wide, {:.2f} m high\n", file.string(), length,
+             std::min(size.x, size.y), size.z);
+  if (length > 0.0f && (length < min_length_m || length > max_length_m))
+    fmt::print(
+        stderr,
+        "warning: cars are {:.0f} to {:.0f} m long: give model() in the script scale={:.3g} if it is one "
+        "of {:.1f} m\n",
+        min_length_m, max_length_m, usual_length_m / length, usual_length_m);
+}
+
 Status expect_free(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return Done{};
   return error("{} is there already; remove it or name another file", file.string());
@@ -59,6 +74,7 @@ Status write_with_copy(const car_bodies::CarCopy& copy, const std::filesystem::p
 Status propose_car(const CarArguments& arguments) {
   const Result<scene::Model> model = read(arguments.body);
   if (!model) return model.errors();
+  print_size(*model, arguments.body);
   if (arguments.output.empty()) {
     const auto script = car_bodies::car_script(*model, arguments.body.filename().generic_string());
     if (!script) return script.errors();

@@ -38,6 +38,10 @@ Status CalibrationArguments::run() {
   if (!loaded) return loaded.errors();
   fmt::print("{}", photographs::calibration_report(loaded->set));
   fmt::print(stderr, "{}", to_string(loaded->problems));
+  if (job.cameras.empty() && !job.distance && job.scale == 1.0)
+    fmt::print(
+        stderr,
+        "note: lengths are no metres: give --distance A B METRES between two photographs, or --scale\n");
   fmt::print("written to {}\n", job.folder.string());
   return Done{};
 }

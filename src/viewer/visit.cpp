@@ -28,7 +28,10 @@ glm::vec2 azimuth_and_elevation_deg(glm::vec3 direction) {
 }
 
 Visit::Visit(house::Stage& stage, const Camera& start, PicturePlace pictures)
-    : stage_(stage), navigation_(start), pictures_(std::move(pictures)) {}
+    : stage_(stage), navigation_(start), pictures_(std::move(pictures)) {
+  for (const scene::Object& object : scene().objects)
+    if (object.is_dynamic) first_places_.emplace(object.name, object.world_from_model[3]);
+}
 
 void Visit::step(const Controls& controls, float passed_s, bool stands_still) {
   time_s_ += double(passed_s);
@@ -58,7 +61,14 @@ std::vector<int> Visit::vehicles() const {
   std::vector<int> all;
   for (std::size_t i = 0; i < scene().objects.size(); ++i)
     if (scene().objects[i].is_dynamic && scene().objects[i].is_visible) all.push_back(int(i));
-  return all;
+  // Parked cars may move, too, where a visitor grabs them: those that do come first, alone.
+  std::vector<int> moving = all;
+  std::erase_if(moving, [this](int i) {
+    const auto before = first_places_.find(scene().objects[std::size_t(i)].name);
+    return before == first_places_.end() ||
+           before->second == scene().objects[std::size_t(i)].world_from_model[3];
+  });
+  return moving.empty() ? all : moving;
 }
 
 void Visit::follow(int object) {

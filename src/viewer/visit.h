@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "house/stage/stage.h"
@@ -39,7 +40,8 @@ class Visit {
   Mode mode() const { return navigation_.mode(); }  ///< walk, fly or follow
   /// Changes the mode and ends a tour. Following without an object to follow becomes flying.
   void set_mode(Mode mode);
-  /// Indices of the objects that can be followed: visible dynamic ones.
+  /// Indices of the objects that can be followed: visible dynamic ones that have moved since the visit began,
+  /// or all where none has.
   std::vector<int> vehicles() const;
   /// Index of the followed object; -1 if none has been followed yet.
   int followed() const { return followed_; }
@@ -121,6 +123,7 @@ class Visit {
   Navigation navigation_;
   PicturePlace pictures_;
   int followed_ = -1;
+  std::unordered_map<std::string, glm::vec4> first_places_;  ///< of dynamic objects, by name
   double time_s_ = 0.0;
   std::vector<Notice> notices_;
 };

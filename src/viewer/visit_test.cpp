@@ -90,6 +90,28 @@ TEST_F(VisitTest, FollowsOneVehicleAfterTheOther) {
   EXPECT_TRUE(holds(told(), "nothing in this scene moves")) << told();
 }
 
+TEST_F(VisitTest, FollowsTrafficRatherThanParkedCars) {
+  open(R"(
+road(path="-60 0, 60 0")
+model(name="a parked car", file="car.glb", position="0 9 0", dynamic=1)
+traffic(vehicles=1, seed=3) { model(file="car.glb") }
+camera(name=chase, follows="vehicle 1", offset="-6 0 2")
+)");
+  EXPECT_EQ(visit_->vehicles().size(), 2u) << "nothing has moved yet";
+  wait(0.5f);
+  ASSERT_EQ(visit_->vehicles().size(), 1u);
+  const auto car = [this] { return visit_->scene().objects[std::size_t(visit_->vehicles()[0])]; };
+  EXPECT_EQ(car().name, "vehicle 1");
+
+  visit_->look_from("chase");
+  for (int second = 0; second < 3; ++second) {
+    for (int frame = 0; frame < 10; ++frame) wait(0.1f);
+    const glm::vec3 at(car().world_from_model[3]);
+    EXPECT_NEAR(glm::distance(visit_->camera().position_in_world(), at), std::sqrt(40.0f), 0.2f)
+        << "the view rides along";
+  }
+}
+
 TEST_F(VisitTest, GoesToCamerasAndTakesTours) {
   visit_->look_from("roof");
   wait();

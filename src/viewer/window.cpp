@@ -105,6 +105,8 @@ class Frames {
     if (options.plans) planning_.turn_on(true);
     if (!planning_.is_on()) visit_.notice("F1 shows the keys, F2 the panel, K what can be placed");
     stage.hold_rate(rate_of(options, gl::is_software()));
+    // A camera that follows takes the view along until the visitor moves.
+    if (!options.camera.empty() && !visit_.actions().camera(visit_.scene())) visit_.look_from(options.camera);
   }
 
   Status run() {

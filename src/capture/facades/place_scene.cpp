@@ -19,12 +19,15 @@ constexpr const char* first_line =
 std::string camera_line(const std::string& name, const PackedPhoto& photo) {
   const glm::dmat3 world_from_camera = glm::transpose(photo.view.camera_from_world);
   const glm::dvec3 forward = world_from_camera[2], p = photo.view.centre;
+  const glm::dvec3 level = glm::normalize(glm::cross(forward, glm::dvec3(0, 0, 1))),
+                   right = world_from_camera[0];
+  const double roll = std::atan2(-glm::dot(right, glm::cross(level, forward)), glm::dot(right, level));
   const double vertical = 0.5 * photo.view.height / photo.view.fy;
   return fmt::format(
       "camera(name=\"{}\", position=\"{:.4f} {:.4f} {:.4f}\", heading_deg={:.3f}, pitch_deg={:.3f}, "
-      "fov_deg={:.3f})\n",
+      "roll_deg={:.3f}, fov_deg={:.3f})\n",
       name, p.x, p.y, p.z, std::atan2(forward.x, forward.y) * degrees,
-      std::asin(std::clamp(forward.z, -1.0, 1.0)) * degrees,
+      std::asin(std::clamp(forward.z, -1.0, 1.0)) * degrees, std::isfinite(roll) ? roll * degrees : 0.0,
       2.0 * std::atan(vertical * nominal_aspect) * degrees);
 }
 

@@ -66,6 +66,8 @@ Pictures usable_pictures(const fs::path& folder, Errors& problems) {
     identity += fmt::format("{} {} {}\n", name, fs::file_size(folder / name, ignored),
                             fs::last_write_time(folder / name, ignored).time_since_epoch().count());
   }
+  const Errors unread = unread_pictures(folder);
+  problems.insert(problems.end(), unread.begin(), unread.end());
   pictures.hash = identity;
   return pictures;
 }
@@ -163,7 +165,9 @@ Error no_common_place(const std::string& name, int agreement) {
   return error(
       "{}: no camera was found, though {} of its features agree with another photograph's; photographs "
       "between "
-      "are missing, or all were taken from one spot",
+      "are missing, or all were taken from one spot: of such ones a program like Hugin makes one picture of "
+      "the "
+      "whole sphere, which parvis facade panorama takes",
       name, agreement);
 }
 
@@ -259,6 +263,26 @@ void tell_orientations(const Pictures& pictures, PhotographSet& set) {
   }
 }
 
+/// What is suspicious though it was calculated.
+void check_result(const CalibrationJob& job, LoadedSet& loaded) {
+  constexpr double max_focal_difference = 0.02;  // of the two focal lengths of one lens: pixels are square
+  if (loaded.set.photographs.size() == 2)
+    loaded.problems.push_back(error(
+        "two photographs alone have cameras: what one of them hides becomes holes, and no third one shows "
+        "whether the place is right; take more"));
+  if (!job.cameras.empty()) return;
+  for (const Photograph& photograph : loaded.set.photographs) {
+    const glm::dvec2 focal = focal_px(photograph.lens);
+    if (std::abs(focal.x - focal.y) <= max_focal_difference * std::max(focal.x, focal.y)) continue;
+    loaded.problems.push_back(error(
+        "{}: its lens has two focal lengths, {:.0f} and {:.0f} pixels, which no camera has: level "
+        "photographs do not "
+        "fix the second one, and heights come out wrong. Calibrate with --lens SIMPLE_RADIAL, which has one",
+        photograph.name, focal.x, focal.y));
+    return;  // the others share the lens, or its fault
+  }
+}
+
 Status turn_and_scale(const CalibrationJob& job, PhotographSet& set) {
   make_z_up(set, !job.cameras.empty());
   double scale = job.scale;
@@ -335,6 +359,7 @@ Result<LoadedSet> calibrate(const CalibrationJob& job) {
   loaded->problems.insert(loaded->problems.begin(), problems.begin(), problems.end());
   name_missing(pictures, work, *loaded);
   tell_orientations(pictures, loaded->set);
+  check_result(job, *loaded);
   if (Status status = turn_and_scale(job, loaded->set); !status) return status.errors();
   const Errors misfits = cameras_that_do_not_fit(loaded->set);
   loaded->problems.insert(loaded->problems.end(), misfits.begin(), misfits.end());

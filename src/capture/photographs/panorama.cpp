@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "base/files.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
 #include "capture/photographs/picture_header.h"
@@ -103,6 +104,15 @@ Result<PhotographSet> split_panorama(const std::filesystem::path& file, const st
                                      glm::dvec3 position, double heading_deg) {
   const Result<PictureHeader> header = read_picture_header(file);
   if (!header) return header.errors();
+  if (header->focal_length_35mm_mm > 0.0)  // stitched pictures that name a lens name their projection, too
+    if (const Result<std::string> bytes = read_file(file);
+        bytes && bytes->find("GPano:") == std::string::npos)
+      return error(
+          "{}: its EXIF says that it was taken through a lens of {:.0f} mm (on film 36 mm wide), which does "
+          "not "
+          "show the whole sphere: parvis facade calibrate takes photographs. If it was stitched, remove its "
+          "EXIF",
+          file.string(), header->focal_length_35mm_mm);
   Photograph whole;
   whole.name = file.filename().string();
   whole.file = file;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include "base/image_io.h"
@@ -69,6 +71,27 @@ TEST(Panorama, BecomesFilesWithCameras) {
   ASSERT_EQ(set->photographs.size(), 6u);
   for (const Photograph& photograph : set->photographs)
     EXPECT_TRUE(read_picture(photograph)) << photograph.name;
+}
+
+TEST(Panorama, APhotographThatWasCutToItsShapeIsNoPanorama) {
+  const TestFolder folder;
+  const auto file = folder.path() / "street.jpg";
+  ASSERT_TRUE(write_image(file, test_panorama(64)));
+  std::ifstream stream(file, std::ios::binary);
+  std::string jpeg((std::istreambuf_iterator<char>(stream)), {});
+  // EXIF behind the first marker, big-endian: a lens as of 28 mm on film.
+  std::string exif(
+      "Exif\0\0MM\0*\0\0\0\x08\0\x01\x87\x69\0\x04\0\0\0\x01\0\0\0\x1a\0\0\0\0"
+      "\0\x01\xa4\x05\0\x03\0\0\0\x01\0\x1c\0\0\0\0\0\0",
+      6 + 8 + 2 + 12 + 4 + 2 + 12 + 4);
+  jpeg.insert(2, std::string("\xff\xe1\0", 3) + char(exif.size() + 2) + exif);
+  folder.write("street.jpg", jpeg);
+  const auto cut = split_panorama(file, folder.path() / "faces", standpoint);
+  ASSERT_FALSE(cut);
+  EXPECT_NE(to_string(cut.errors()).find("a lens of 28 mm"), std::string::npos) << to_string(cut.errors());
+  folder.write("stitched.jpg", jpeg + "<GPano:ProjectionType>equirectangular</GPano:ProjectionType>");
+  const auto stitched = split_panorama(folder.path() / "stitched.jpg", folder.path() / "faces", standpoint);
+  EXPECT_TRUE(stitched) << to_string(stitched.errors());
 }
 
 TEST(Panorama, AnotherShapeIsRefused) {

@@ -39,4 +39,8 @@ void fit_to_files(LoadedSet& loaded, const std::filesystem::path& picture_folder
 /// out.
 std::vector<std::string> picture_names(const std::filesystem::path& folder);
 
+/// A line for each format of pictures below a folder that people hand over and that is not read (HEIC, raw
+/// formats of cameras), with their number and the first names.
+Errors unread_pictures(const std::filesystem::path& folder);
+
 }  // namespace parvis::photographs

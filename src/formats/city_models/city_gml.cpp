@@ -25,6 +25,7 @@
 #include "formats/city_models/city_assembly.h"
 #include "formats/city_models/city_coordinates.h"
 #include "formats/city_models/city_gml_3.h"
+#include "formats/city_models/city_gml_extensions.h"
 #include "formats/city_models/city_lod.h"
 #include "formats/city_models/city_solid.h"
 #include "formats/city_models/georeferenced_textures.h"
@@ -466,14 +467,16 @@ std::string system_of(const std::string& xml, const FileLocation& where, Errors&
   return names.front();
 }
 
-Result<Gml2> read_gml_2(const std::filesystem::path& file, Errors& warnings) {
+Result<Gml2> read_gml_2(const std::filesystem::path& file, Errors& warnings, FileAccount* account) {
   const FileLocation where{file.string(), 0, 0};
   Result<XmlText> xml = read_xml(file);
   if (!xml) return xml.errors();
   if (xml->root.find("CityModel") == std::string::npos)
     return error_at(where, "this is no CityGML: its outermost element is <{}>; expected <CityModel>",
                     xml->root.substr(0, xml->root.find(' ')));
-  xml->bytes = plain_gml_geometry(std::move(xml->bytes));
+  FileAccount unasked("CityGML");
+  xml->bytes =
+      without_gml_extensions(plain_gml_geometry(std::move(xml->bytes)), account ? *account : unasked);
   Gml2 read{{}, system_of(xml->bytes, where, warnings), georeferenced_textures(xml->bytes)};
   if (is_city_gml_3(xml->root)) {
     Result<std::string> text = city_gml_2_of(xml->bytes, where);
@@ -521,7 +524,7 @@ Result<Model> read_city_gml(const std::filesystem::path& file, Errors& warnings,
                             std::optional<double> max_detail, std::optional<glm::dvec2>* place_deg,
                             const std::string& map, FileAccount* account) {
   const FileLocation where{file.string(), 0, 0};
-  Result<Gml2> gml = read_gml_2(file, warnings);
+  Result<Gml2> gml = read_gml_2(file, warnings, account);
   if (!gml) return gml.errors();
   const auto complaints = std::make_shared<Complaints>();
   citygml::ParserParams wanted;

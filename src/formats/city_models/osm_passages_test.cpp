@@ -13,7 +13,7 @@ namespace {
 using glm::dvec2, glm::dvec3;
 
 const std::vector<dvec2> long_house{{0, 0}, {20, 0}, {20, 10}, {0, 10}};
-const TestTags house{{"building", "yes"}, {"height", "12"}};
+const TestTags house_tags{{"building", "yes"}, {"height", "12"}};
 constexpr const char *wall_surface = "WallSurface", *ceiling = "OuterCeilingSurface";
 
 TestTags passage(TestTags more = {}) {
@@ -33,7 +33,7 @@ void expect_closed(const Model& model, double floor_m2) {
 
 TEST(OsmPassages, StreetsLeadThroughBuildings) {
   TestMap map;
-  map.add_area(long_house, house);
+  map.add_area(long_house, house_tags);
   map.add_line({{10, 0}, {10, 10}}, passage());
   map.add_line({{10, -30}, {10, 0}}, {{"highway", "service"}});
   const TestTown town = read(map);
@@ -58,7 +58,7 @@ TEST(OsmPassages, StreetsLeadThroughBuildings) {
 TEST(OsmPassages, HeightsAreThoseOfTheTagsAboveTheGroundOfTheWay) {
   const auto top_m = [](const TestTags& tags, const GroundOnMap& ground) {
     TestMap map;
-    map.add_area(long_house, house);
+    map.add_area(long_house, house_tags);
     map.add_line({{10, 0}, {10, 10}}, tags);
     const TestTown town = read(map, ground);
     EXPECT_TRUE(town.model) << to_string(town.model.errors());
@@ -75,7 +75,7 @@ TEST(OsmPassages, HeightsAreThoseOfTheTagsAboveTheGroundOfTheWay) {
 TEST(OsmPassages, CourtyardsAreReachedThroughOneWing) {
   TestMap map;
   map.add_area_with_holes({{{0, 0}, {40, 0}, {40, 40}, {0, 40}}, {{10, 10}, {30, 10}, {30, 30}, {10, 30}}},
-                          house);
+                          house_tags);
   map.add_line({{20, 0}, {20, 10}}, passage());
   const TestTown town = read(map);
   ASSERT_TRUE(town.model) << to_string(town.model.errors());
@@ -85,7 +85,7 @@ TEST(OsmPassages, CourtyardsAreReachedThroughOneWing) {
 
 TEST(OsmPassages, WaysThatBendMeetAndRunAskewLeaveAClosedBuilding) {
   TestMap map;
-  map.add_area({{0, 0}, {60, 5}, {55, 40}, {30, 30}, {-5, 45}}, house);
+  map.add_area({{0, 0}, {60, 5}, {55, 40}, {30, 30}, {-5, 45}}, house_tags);
   map.add_line({{10, 0.8}, {18, 15}, {30, 30}}, passage());
   map.add_line({{18, 15}, {40, 18}, {58, 20}}, passage({{"maxheight", "4"}}));
   map.add_line({{25, 16}, {25, 22}}, passage());  // ends inside
@@ -101,7 +101,7 @@ TEST(OsmPassages, WaysThatBendMeetAndRunAskewLeaveAClosedBuilding) {
 
 TEST(OsmPassages, WaysBesideAndUnderRaisedPartsCutNothing) {
   TestMap map;
-  map.add_area(long_house, house);
+  map.add_area(long_house, house_tags);
   map.add_line({{0, -3}, {20, -3}}, passage());
   map.add_area({{30, 0}, {50, 0}, {50, 10}, {30, 10}},
                {{"building", "yes"}, {"min_height", "4"}, {"height", "12"}});
@@ -125,7 +125,7 @@ TEST(OsmPassages, LowBuildingsStayWholeWithAWarning) {
 
 TEST(OsmPassages, ManyInOnePlaceAreLeftOutWithAWarning) {
   TestMap map;
-  for (int i = 0; i < 20; ++i) map.add_area(long_house, house);
+  for (int i = 0; i < 20; ++i) map.add_area(long_house, house_tags);
   for (int i = 0; i < 2000; ++i) {
     const double x = 5.0 + 0.005 * i;
     map.add_line({{x, 0}, {20.0 - x, 10}}, passage());

@@ -14,31 +14,33 @@ using formats::FileContent;
 using formats::ModelReading;
 namespace fs = std::filesystem;
 
-/// With what a model shows beside what its reader has counted.
-Result<FileContent> with_shown(Result<scene::Model> model, scene::FileAccount account) {
+/// The model that `read` makes while it fills an account, to which what the model shows is added.
+template <class Read>
+Result<FileContent> with_account(const char* format, const Read& read) {
+  scene::FileAccount account(format);
+  Result<scene::Model> model = read(&account);
   if (!model) return model.errors();
   formats::count_what_is_shown(*model, account);
   return FileContent{*std::move(model), std::move(account)};
 }
 
 Result<FileContent> read_json(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  scene::FileAccount account("CityJSON");
-  return with_shown(
-      scene::read_city_model(file, warnings, reading.max_detail, reading.place_deg, reading.map, &account),
-      std::move(account));
+  return with_account("CityJSON", [&](scene::FileAccount* account) {
+    return scene::read_city_model(file, warnings, reading.max_detail, reading.place_deg, reading.map,
+                                  account);
+  });
 }
 
 Result<FileContent> read_gml(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  scene::FileAccount account("CityGML");
-  return with_shown(
-      scene::read_city_gml(file, warnings, reading.max_detail, reading.place_deg, reading.map, &account),
-      std::move(account));
+  return with_account("CityGML", [&](scene::FileAccount* account) {
+    return scene::read_city_gml(file, warnings, reading.max_detail, reading.place_deg, reading.map, account);
+  });
 }
 
 Result<FileContent> read_map(const fs::path& file, const ModelReading& reading, Errors& warnings) {
-  scene::FileAccount account("OpenStreetMap");
-  return with_shown(scene::read_osm(file, warnings, reading.ground, reading.place_deg, reading.map, &account),
-                    std::move(account));
+  return with_account("OpenStreetMap", [&](scene::FileAccount* account) {
+    return scene::read_osm(file, warnings, reading.ground, reading.place_deg, reading.map, account);
+  });
 }
 
 /// On a ground, of which only the program knows the heights, the map is read by a child and assembled here.
@@ -47,9 +49,9 @@ Result<FileContent> read_map_on_ground(const fs::path& file, const ModelReading&
   if (!reading.ground) return alone(file, reading, warnings);
   const Result<scene::OsmFile> osm = scene::read_osm_file_isolated(file, reading.map, warnings);
   if (!osm) return osm.errors();
-  scene::FileAccount account("OpenStreetMap");
-  return with_shown(scene::model_of_osm(*osm, file, warnings, reading.ground, reading.place_deg, &account),
-                    std::move(account));
+  return with_account("OpenStreetMap", [&](scene::FileAccount* account) {
+    return scene::model_of_osm(*osm, file, warnings, reading.ground, reading.place_deg, account);
+  });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <Inventor/VRMLnodes/SoVRMLImageTexture.h>
 #include <Inventor/VRMLnodes/SoVRMLShape.h>
 #include <Inventor/actions/SoCallbackAction.h>
+#include <Inventor/actions/SoSearchAction.h>
 #include <Inventor/errors/SoDebugError.h>
 #include <Inventor/errors/SoReadError.h>
 #include <Inventor/fields/SoSFBool.h>
@@ -18,6 +19,7 @@
 #include <array>
 #include <cstring>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "base/files.h"
@@ -272,6 +274,75 @@ class Assembly {
   Look last_look_;
 };
 
+/// Nodes of a kind that make no triangles.
+struct KindOfNodes {
+  const char* kind;
+  scene::Fate fate;
+  const char* reason;
+  std::array<const char*, 5> types;  ///< as Coin calls them, with those that are derived from them
+};
+
+constexpr std::array kinds_of_nodes{
+    KindOfNodes{"lights",
+                scene::Fate::left_out,
+                "lamps of models are not read; write lamp() nodes",
+                {"Light", "VRMLLight"}},
+    KindOfNodes{"cameras",
+                scene::Fate::left_out,
+                "cameras of models are not read; write camera() nodes",
+                {"Camera", "VRMLViewpoint"}},
+    KindOfNodes{"lines and points",
+                scene::Fate::left_out,
+                "points and lines have no surface",
+                {"LineSet", "IndexedLineSet", "PointSet", "VRMLIndexedLineSet", "VRMLPointSet"}},
+    KindOfNodes{"texts", scene::Fate::left_out, "texts without a surface are not drawn", {"Text2", "Image"}},
+    KindOfNodes{"animations",
+                scene::Fate::left_out,
+                "models of Inventor and VRML stand still",
+                {"VRMLInterpolator", "VRMLTimeSensor", "Rotor", "Pendulum", "Shuttle"}},
+    KindOfNodes{"scripts", scene::Fate::left_out, "they are not run", {"VRMLScript"}},
+    KindOfNodes{
+        "sounds", scene::Fate::left_out, "sounds of models are not read; write sound() nodes", {"VRMLSound"}},
+    KindOfNodes{"files within the file",
+                scene::Fate::left_out,
+                "give each file a model() of its own",
+                {"VRMLInline", "WWWInline"}},
+    KindOfNodes{"fog and backgrounds",
+                scene::Fate::left_out,
+                "the scene has its own",
+                {"VRMLFog", "VRMLBackground", "Environment"}},
+    KindOfNodes{"nodes of unknown kinds", scene::Fate::left_out, "Coin knows no such node", {"UnknownNode"}},
+    KindOfNodes{"levels of detail",
+                scene::Fate::changed,
+                "shown at the level that Coin chooses",
+                {"LOD", "LevelOfDetail", "VRMLLOD"}},
+    KindOfNodes{"switches",
+                scene::Fate::unneeded,
+                "of their children those that are chosen are shown",
+                {"Switch", "VRMLSwitch"}}};
+
+/// Counts the nodes of which no triangles come, each once, wherever in the file it stands.
+void account_for_nodes(SoNode* root, scene::FileAccount& account) {
+  for (const KindOfNodes& kind : kinds_of_nodes)
+    for (const char* name : kind.types) {
+      const SoType type = name ? SoType::fromName(name) : SoType::badType();
+      if (type.isBad()) continue;
+      SoSearchAction search;
+      search.setType(type);
+      search.setInterest(SoSearchAction::ALL);
+      search.setSearchingAll(TRUE);
+      search.apply(root);
+      std::set<const SoNode*> counted;  // a node may stand in several places
+      for (int i = 0; i < search.getPaths().getLength(); ++i) {
+        const SoNode* node = search.getPaths()[i]->getTail();
+        if (!counted.insert(node).second) continue;
+        const std::string given = node->getName().getString();
+        account.add(kind.fate, kind.kind, kind.reason,
+                    given.empty() ? node->getTypeId().getName().getString() : given, 1);
+      }
+    }
+}
+
 /// Coin asks for the content of a picture.
 SbBool note_picture(const SbString& name, SbImage* image, void* assembly) {
   const std::uint16_t number = static_cast<Assembly*>(assembly)->picture(name.getString());
@@ -299,6 +370,7 @@ Result<formats::FileContent> read_inventor(const fs::path& file, const formats::
   std::string problem;
   SoReadError::setHandlerCallback(note_problem, &problem);
   SoDebugError::setHandlerCallback(note_problem, &problem);
+  scene::FileAccount account("Inventor or VRML");
   Assembly assembly(file, reading.up != formats::UpAxis::z, warnings);
   SbImage::addReadImageCB(note_picture, &assembly);
   SoInput input;
@@ -306,6 +378,7 @@ Result<formats::FileContent> read_inventor(const fs::path& file, const formats::
   SoSeparator* root = SoDB::readAll(&input);
   if (root) {
     root->ref();
+    account_for_nodes(root, account);
     assembly.add(root);
     root->unref();
   }
@@ -313,7 +386,10 @@ Result<formats::FileContent> read_inventor(const fs::path& file, const formats::
   if (!root)
     return error_at({file.string(), 0, 0}, "cannot be read as Inventor or VRML ({})",
                     problem.empty() ? "no reason given" : problem);
-  return formats::with_plain_account("Inventor or VRML", assembly.take());
+  Result<scene::Model> model = assembly.take();
+  if (!model) return model.errors();
+  formats::count_what_is_shown(*model, account);
+  return formats::FileContent{*std::move(model), std::move(account)};
 }
 
 }  // namespace parvis::inventor

@@ -65,7 +65,8 @@ TEST_F(Inventor, ReadsShapesColoursPicturesAndPlaces) {
   EXPECT_EQ(model.textures[std::size_t(picture.base_colour_texture)].image.at(1, 1)[0], 200);
   for (std::size_t v = 0; v < painted->mesh.uvs.size(); ++v)
     EXPECT_NEAR(painted->mesh.uvs[v].y, 1.0f - painted->mesh.positions[v].z, 1e-5f);
-  EXPECT_TRUE(warnings_.empty()) << to_string(warnings_);
+  ASSERT_EQ(warnings_.size(), 1u) << to_string(warnings_);
+  EXPECT_NE(to_string(warnings_).find("2 cameras left out"), std::string::npos) << to_string(warnings_);
 }
 
 TEST_F(Inventor, ReadsInventorWithAPictureInTheFile) {
@@ -116,6 +117,40 @@ TEST_F(Inventor, DeepNestingAndLargeFilesEndInWords) {
   const std::string blanks(4000, ' ');
   while (large.size() < 100'000'000) large += blanks, large += "# nothing\n";
   EXPECT_EQ(read("large.iv", large + "Cube { }\n").parts.size(), 1u);
+}
+
+TEST_F(Inventor, WhatMakesNoTrianglesIsCountedByKindAndName) {
+  const Model vrml = read("square.wrl", R"(#VRML V2.0 utf8
+DEF entrance Viewpoint { position 0 2 9 }
+DEF noon DirectionalLight { } PointLight { }
+Background { skyColor 0 0 1 }
+DEF clock TimeSensor { } DEF sway OrientationInterpolator { key [0 1] keyValue [0 1 0 0, 0 1 0 1] }
+Shape { geometry IndexedLineSet { coord Coordinate { point [0 0 0, 1 0 0] } coordIndex [0 1 -1] } }
+LOD { level [ Shape { geometry Box { size 2 4 6 } } ] }
+Inline { url "other.wrl" }
+)");
+  ASSERT_TRUE(vrml.account);
+  const scene::FileAccount& account = *vrml.account;
+  EXPECT_EQ(account.count(scene::Fate::left_out, "cameras"), 1u) << account.text();
+  EXPECT_EQ(account.count(scene::Fate::left_out, "lights"), 2u) << account.text();
+  EXPECT_EQ(account.count(scene::Fate::left_out, "fog and backgrounds"), 1u) << account.text();
+  EXPECT_EQ(account.count(scene::Fate::left_out, "animations"), 2u) << account.text();
+  EXPECT_EQ(account.count(scene::Fate::left_out, "lines and points"), 1u) << account.text();
+  EXPECT_EQ(account.count(scene::Fate::changed, "levels of detail"), 1u) << account.text();
+  EXPECT_EQ(account.count(scene::Fate::left_out, "files within the file"), 1u) << account.text();
+  EXPECT_NE(account.text().find("noon"), std::string::npos) << account.text();
+  EXPECT_EQ(account.count(scene::Fate::used, "triangles"), 12u) << account.text();
+
+  const Model inventor = read("cube.iv", R"(#Inventor V2.1 ascii
+Separator { PerspectiveCamera { } DEF lamp SpotLight { } DEF turning Rotor { } Cube { }
+  Coordinate3 { point [0 0 0, 1 1 1] } PointSet { } Switch { whichChild -1 Cone { } } })");
+  ASSERT_TRUE(inventor.account);
+  EXPECT_EQ(inventor.account->count(scene::Fate::left_out, "cameras"), 1u) << inventor.account->text();
+  EXPECT_EQ(inventor.account->count(scene::Fate::left_out, "lights"), 1u) << inventor.account->text();
+  EXPECT_EQ(inventor.account->count(scene::Fate::left_out, "animations"), 1u) << inventor.account->text();
+  EXPECT_EQ(inventor.account->count(scene::Fate::left_out, "lines and points"), 1u)
+      << inventor.account->text();
+  EXPECT_EQ(inventor.account->count(scene::Fate::unneeded, "switches"), 1u) << inventor.account->text();
 }
 
 }  // namespace

@@ -57,6 +57,11 @@ struct DaylightHours {
 
   /// True if the night lies between midnight and the sun's rise alone: it sets before it rises.
   bool sets_first() const { return rise_h && set_h && *set_h < *rise_h; }
+  /// When the time above the elevation ends that `rise_h` or noon lies in; of a day that sets first it is the
+  /// setting of the next night.
+  double end_h() const { return sets_first() ? *set_h + 24.0 : set_h.value_or(noon_h + 12.0); }
+  /// When that time begins.
+  double begin_h() const { return rise_h.value_or(noon_h - 12.0); }
   /// True if the sun stays below the elevation all day.
   bool is_polar_night(double elevation_deg = sunrise_elevation_deg) const {
     return !rise_h && !set_h && noon_elevation_deg < elevation_deg;

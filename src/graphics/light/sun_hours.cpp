@@ -31,8 +31,7 @@ std::vector<Day> days_of(const SunPeriod& period, double step_h, int parts) {
       days.push_back(day);
       continue;
     }
-    const double from = light.rise_h.value_or(light.noon_h - 12.0),
-                 to = light.set_h.value_or(light.noon_h + 12.0);
+    const double from = light.begin_h(), to = light.end_h();
     const int steps = std::max(1, int(std::ceil((to - from) / step_h)));
     day.fine_h = (to - from) / (steps * parts);
     for (int i = 0; i <= steps * parts; ++i) {

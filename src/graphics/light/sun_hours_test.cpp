@@ -76,6 +76,15 @@ TEST(SunHours, AgreesWithRaysEveryMinute) {
   EXPECT_GT(error_percent(std::vector<float>(truth.size(), 11.0f)), 3.0);
 }
 
+TEST(SunHours, ADayWhoseNightLiesOnOneDateHasAllButThatNight) {
+  // Longyearbyen on 18 April 2026: the sun sets at 00:12 by summer time and rises at 01:39.
+  const SunPeriod day{.place = {78.2232, 15.6267, 2.0, 2026, 108, 12.0}, .first_day = 108, .last_day = 108};
+  const scene::Scene scene = box_on_a_plain({20, 20, 0}, {21, 21, 1});
+  const reference::RayScene rays(scene);
+  const std::vector<float> hours = sun_hours(rays, {{{-20, -20, 0.02f}, {0, 0, 1}}}, day);
+  EXPECT_NEAR(hours[0], 22.4f, 0.3f);
+}
+
 TEST(SunHours, PolarNightHasNone) {
   const scene::Scene scene = box_on_a_plain({20, 20, 0}, {21, 21, 1});
   const reference::RayScene rays(scene);

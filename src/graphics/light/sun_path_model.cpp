@@ -132,8 +132,7 @@ glm::mat4 piece_at(glm::vec3 place) { return glm::translate(glm::mat4(1.0f), pla
 void place_day(PlaceAndTime day, std::span<glm::mat4> pieces) {
   const DaylightHours hours = daylight_hours(day);
   if (hours.is_polar_night()) return;
-  const double from = hours.rise_h.value_or(hours.noon_h - 12.0),
-               to = hours.set_h.value_or(hours.noon_h + 12.0);
+  const double from = hours.begin_h(), to = hours.end_h();
   const auto sun_at = [&](double hour) {
     day.time_of_day_h = hour;
     return sun_of(day);

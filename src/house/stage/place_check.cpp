@@ -64,6 +64,24 @@ Hits look_around(const Parts& parts, glm::vec3 eye) {
   return hits;
 }
 
+/// The opaque parts of what a camera follows, as it stands now: of other things that move none stays there.
+Parts parts_of(const scene::Scene& scene, const std::string& name) {
+  Parts parts;
+  const auto object = std::ranges::find_if(
+      scene.objects, [&](const scene::Object& each) { return each.is_visible && each.name == name; });
+  if (object == scene.objects.end()) return parts;
+  const std::vector<glm::mat4> pose = object->pose.empty() ? scene::rest_pose(*object->model) : object->pose;
+  for (const scene::Part& part : object->model->parts) {
+    const scene::Material& material = object->model->materials[std::size_t(part.material)];
+    if (material.alpha_mode != scene::Alpha::opaque || material.refracts()) continue;
+    const glm::mat4 world_from_mesh = object->world_from_model * pose[std::size_t(part.node)];
+    parts.emplace_back(render::FixedPart{part.mesh, world_from_mesh, int(object - scene.objects.begin()),
+                                         true, material.is_double_sided},
+                       transformed(world_from_mesh, part.mesh.bounds()));
+  }
+  return parts;
+}
+
 /// False where nothing lies below any lane, as far as some of them tell.
 bool have_ground(const std::vector<scene::Lane>& lanes, const Parts& parts) {
   constexpr std::size_t max_tried = 64, down = 5;
@@ -130,14 +148,17 @@ Errors check_place(const scene::Scene& scene) {
         error("nothing lies below the roads: add terrain_plane() for the ground, and paving() for "
               "their surfaces"));
   for (const scene::NamedCamera& camera : scene.cameras) {
-    if (!camera.follows.empty()) continue;
-    const Hits hits = look_around(parts, camera.camera.position_in_world());
+    const Result<Camera> now = scene.camera_now(camera);
+    if (!now) continue;  // it follows what is hidden
+    const Hits hits = look_around(camera.follows.empty() ? parts : parts_of(scene, camera.follows),
+                                  now->position_in_world());
     if (std::ranges::count_if(hits, &Hit::is_back) < min_backs) continue;
     const Hit& wall = *std::ranges::find_if(hits, &Hit::is_back);
     warnings.push_back(
-        {fmt::format("camera \"{}\" stands inside \"{}\": it sees the backs of its faces; move it out, or "
+        {fmt::format("camera \"{}\" stands inside \"{}\": it sees the backs of its faces; move it out{}, or "
                      "show both sides of the object's material",
-                     camera.name, scene.objects[std::size_t(wall.object)].name),
+                     camera.name, scene.objects[std::size_t(wall.object)].name,
+                     camera.follows.empty() ? "" : " by offset="),
          {}});
   }
   return warnings;

@@ -38,6 +38,24 @@ TEST(PlaceCheck, ACameraThatFollowsIsLeftOut) {
   EXPECT_TRUE(check_place(place).empty());
 }
 
+TEST(PlaceCheck, ACameraInTheCarThatItFollowsIsNamedWithTheCar) {
+  scene::Scene place = house_with_camera({5, -20, 1.7f});
+  const int car = scene::add(
+      place, scene::model_of(scene::box({-2, -0.9f, 0.2f}, {2, 0.9f, 1.5f}), scene::matt(glm::vec3(0.5f))));
+  place.objects[std::size_t(car)].name = "taxi";
+  place.objects[std::size_t(car)].is_dynamic = true;
+  place.objects[std::size_t(car)].world_from_model[3] = glm::vec4(40, 3, 0, 1);
+  scene::NamedCamera& camera = place.cameras.front();
+  camera.follows = "taxi", camera.camera.world_from_camera = glm::mat4(1.0f);
+  camera.offset_m = {-7, 2, 1.8f};
+  EXPECT_TRUE(check_place(place).empty());
+  camera.offset_m = {0.4f, 0.3f, 1.1f};
+  const Errors warnings = check_place(place);
+  ASSERT_EQ(warnings.size(), 1u) << to_string(warnings);
+  EXPECT_NE(to_string(warnings).find("camera \"eye\" stands inside \"taxi\""), std::string::npos)
+      << to_string(warnings);
+}
+
 TEST(PlaceCheck, WhatIsHiddenIsNotThere) {
   scene::Scene place = house_with_camera({5, 4, 1.7f});
   place.objects.back().is_visible = false;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/colour.h"
+#include "base/content_hash.h"
 #include "formats/meshes/wheel.h"
 #include "places/paper_city/car_body.h"
 #include "places/paper_city/lettering.h"
@@ -55,8 +56,24 @@ Image8 plate_picture(std::string_view text) {
   return canvas.pictures(1, 1).colour;
 }
 
+/// A number of its own for each kind and paint: two letters, four digits, two letters.
+std::string plate_number(const std::string& name) {
+  ContentHash hash;
+  hash.add_text(name);
+  std::uint64_t rest = hash.value();
+  const auto next = [&](std::uint64_t count) {
+    const std::uint64_t value = rest % count;
+    rest /= count;
+    return value;
+  };
+  std::string number = "PV 0000 AA";
+  for (const std::size_t i : {3, 4, 5, 6}) number[i] = char('0' + next(10));
+  for (const std::size_t i : {8, 9}) number[i] = char('A' + next(26));
+  return number;
+}
+
 void add_textures(scene::Model& model) {
-  model.textures = {texture("plate", plate_picture("PV 2041 AR")),
+  model.textures = {texture("plate", plate_picture(plate_number(model.name))),
                     texture("contact_shadow", shadow_picture())};
 }
 

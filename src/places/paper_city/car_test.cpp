@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "places/paper_city/car_body.h"
 
 namespace parvis::city {
@@ -21,6 +23,15 @@ TEST(Cars, AreWholeMeshesOfAboutTenThousandTriangles) {
     EXPECT_GT(car.triangle_count(), 7000u) << car.name;
     EXPECT_LT(car.triangle_count(), 16000u) << car.name;
   }
+}
+
+TEST(Cars, EachKindAndPaintHasANumberPlateOfItsOwn) {
+  std::set<std::vector<std::uint8_t>> plates;
+  const std::vector<scene::Model> cars = city_cars();
+  for (const scene::Model& car : cars) plates.insert(car.textures.front().image.pixels);
+  EXPECT_EQ(plates.size(), cars.size());
+  EXPECT_EQ(city_cars().front().textures.front().image.pixels, cars.front().textures.front().image.pixels)
+      << "the same again";
 }
 
 TEST(Cars, StandOnFourWheels) {

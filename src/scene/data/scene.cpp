@@ -14,6 +14,12 @@ Camera following(const NamedCamera& named, const glm::mat4& world_from_object) {
   const glm::vec3 eye =
       position + named.offset_m.x * forward + named.offset_m.y * left + named.offset_m.z * up;
   Camera camera = named.camera;
+  if (camera.world_from_camera != glm::mat4(1.0f)) {  // it looks in a direction of its own from the object
+    const glm::mat4 world_from_heading(glm::vec4(left, 0.0f) * -1.0f, glm::vec4(forward, 0.0f),
+                                       glm::vec4(up, 0.0f), glm::vec4(eye, 1.0f));
+    camera.world_from_camera = world_from_heading * camera.world_from_camera;
+    return camera;
+  }
   const glm::vec3 view = position + followed_height_m * up - eye;
   const bool is_vertical = glm::length(glm::vec2(view)) < 1e-4f * glm::length(view);
   if (glm::length(view) > 0.0f)

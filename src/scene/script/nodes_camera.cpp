@@ -22,12 +22,13 @@ NodeSchema camera_schema() {
       .type = "camera",
       .help =
           "A named place to look from, towards a target or by heading and pitch; or one that stays with a "
-          "moving object.",
+          "moving object: it looks at that, or by heading_deg and pitch_deg from it, as a driver does.",
       .attributes =
           {text("name", "what parvis render --camera takes").required(),
            vec3("position", "of the eye").in("m").by_default("0 0 1.6").live(),
            vec3("target", "the point to look at").in("m").replacing({"heading_deg", "pitch_deg"}).live(),
-           angle("heading_deg", "compass direction: 0 north, 90 east")
+           angle("heading_deg",
+                 "compass direction: 0 north, 90 east; with follows: from where the object heads")
                .in("degrees")
                .by_default("0")
                .replacing({"target"})
@@ -37,6 +38,11 @@ NodeSchema camera_schema() {
                .between(-90, 90)
                .by_default("0")
                .replacing({"target"})
+               .live(),
+           angle("roll_deg", "turn about the line of sight, clockwise as the camera is turned")
+               .in("degrees")
+               .between(-180, 180)
+               .by_default("0")
                .live(),
            angle("fov_deg", "horizontal field of view at 16:9")
                .in("degrees")
@@ -50,6 +56,11 @@ NodeSchema camera_schema() {
                .live()},
       .example = "camera(name=\"street\", position=\"12 -4 1.6\", target=\"40 10 4\", fov_deg=60)",
       .messages = {{"look", "the visitor looks from it", {}}}};
+}
+
+/// The camera's own turn about its line of sight.
+glm::mat4 rolled(const Node& node) {
+  return glm::rotate(glm::mat4(1.0f), -node.angle("roll_deg"), glm::vec3(0.0f, 0.0f, 1.0f));
 }
 
 glm::mat4 world_from_camera(const Node& node) {
@@ -73,6 +84,25 @@ glm::mat4 rigid(const glm::mat4& matrix) {
   return result;
 }
 
+/// Of a camera that follows: where it stands and looks from the object. Identity: it looks at the object.
+void follow(const Node& node, SceneBuilder& builder, NamedCamera& camera) {
+  camera.offset_m = node.vec3("offset");
+  camera.camera.world_from_camera = glm::mat4(1.0f);
+  if (node.gives("heading_deg") || node.gives("pitch_deg"))
+    camera.camera.world_from_camera =
+        turned(node.angle("heading_deg")) *
+        glm::rotate(glm::mat4(1.0f), glm::half_pi<float>() + node.angle("pitch_deg"),
+                    glm::vec3(1.0f, 0.0f, 0.0f)) *
+        rolled(node);
+  for (const char* unused : {"position", "target"})
+    if (node.gives(unused))
+      builder.warn(
+          error_at(node.where_of(unused),
+                   "camera \"{}\" follows \"{}\": {}= is not used; offset= says where it stands from "
+                   "there, heading_deg= and pitch_deg= where it looks",
+                   camera.name, camera.follows, unused));
+}
+
 void build_camera(const Node& node, SceneBuilder& builder) {
   if (node.gives("target") && (node.gives("heading_deg") || node.gives("pitch_deg")))
     return builder.fail(error_at(node.where_of("target"),
@@ -82,11 +112,12 @@ void build_camera(const Node& node, SceneBuilder& builder) {
     return builder.fail(error_at(node.where_of("target"), "the target lies in the eye; move one of them"));
   NamedCamera camera;
   camera.name = node.text("name");
-  camera.camera.world_from_camera = rigid(builder.world_from_parent() * world_from_camera(node));
+  camera.camera.world_from_camera =
+      rigid(builder.world_from_parent() * world_from_camera(node) * rolled(node));
   camera.camera.vertical_fov = vertical_fov(node.angle("fov_deg"), nominal_aspect);
   camera.camera.far_m = sight_m;
   camera.follows = node.text("follows");
-  if (!camera.follows.empty()) camera.offset_m = node.vec3("offset");
+  if (!camera.follows.empty()) follow(node, builder, camera);
   builder.add(std::move(camera));
 }
 

@@ -202,6 +202,49 @@ TEST_F(SceneLoader, RoadsBecomeLanes) {
                     "did you mean \"vehicle"));
 }
 
+TEST_F(SceneLoader, ACameraThatFollowsLooksAtTheObjectOrByItsOwnHeadingFromIt) {
+  Scene scene = scene_of(
+      "road(path=\"0 0, 50 0\")\ntraffic(vehicles=1)\ncamera(name=chase, follows=\"vehicle 1\", offset=\"-7 "
+      "0 1.8\")\n"
+      "camera(name=seat, follows=\"vehicle 1\", offset=\"0.5 0.4 1.2\", heading_deg=90, pitch_deg=30)");
+  Object car;
+  car.name = "vehicle 1";
+  car.world_from_model =
+      glm::mat4({0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 1, 0}, {100, 20, 3, 1});  // heads north
+  scene.objects = {car};
+  const Result<Camera> chase = scene.camera_now(*scene.find_camera("chase")),
+                       seat = scene.camera_now(*scene.find_camera("seat"));
+  ASSERT_TRUE(chase && seat);
+  EXPECT_LT(glm::distance(chase->position_in_world(), glm::vec3(100, 13, 4.8f)), 1e-3f);
+  EXPECT_GT(chase->forward_in_world().y, 0.98f);
+  EXPECT_LT(glm::distance(seat->position_in_world(), glm::vec3(99.6f, 20.5f, 4.2f)), 1e-3f);
+  EXPECT_LT(glm::distance(seat->forward_in_world(), glm::vec3(std::sqrt(0.75f), 0, 0.5f)), 1e-5f)
+      << "to the right, upward";
+  EXPECT_NEAR(seat->world_from_camera[0].z, 0.0f, 1e-5f) << "level";
+
+  const Result<LoadedScene> loaded =
+      load_scene(folder_.write("scene.xp",
+                               "road(path=\"0 0, 50 0\")\ntraffic(vehicles=1)\n"
+                               "camera(name=eye, follows=\"vehicle 1\", target=\"1 2 3\")"),
+                 registry_);
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  EXPECT_TRUE(holds(to_string(loaded->warnings), "target= is not used")) << to_string(loaded->warnings);
+}
+
+TEST_F(SceneLoader, ACameraRollsClockwiseAboutItsLineOfSight) {
+  const Scene scene = scene_of(
+      "camera(name=level, position=\"0 0 2\", heading_deg=90)\n"
+      "camera(name=rolled, position=\"0 0 2\", heading_deg=90, pitch_deg=10, roll_deg=30)\n"
+      "camera(name=aimed, position=\"0 0 2\", target=\"9 0 2\", roll_deg=-30)");
+  const auto right = [&](const char* name) {
+    return glm::vec3(scene.find_camera(name)->camera.world_from_camera[0]);
+  };
+  EXPECT_NEAR(right("level").z, 0.0f, 1e-6f);
+  EXPECT_NEAR(right("rolled").z, -0.5f * std::cos(glm::radians(10.0f)), 1e-5f) << "its right side goes down";
+  EXPECT_NEAR(right("aimed").z, 0.5f, 1e-5f);
+  EXPECT_NEAR(scene.find_camera("rolled")->camera.forward_in_world().z, std::sin(glm::radians(10.0f)), 1e-5f);
+}
+
 TEST_F(SceneLoader, BadRoadsAreReportedAtTheirPath) {
   EXPECT_TRUE(holds(errors_of("\nroad(path=\"1 1, 1 1\")"), "scene.xp:2:11:"));
   EXPECT_TRUE(holds(errors_of("road(path=\"1 1\")"), "two or more points"));
