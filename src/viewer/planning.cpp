@@ -9,6 +9,7 @@
 
 #include "graphics/reference/camera_ray.h"
 #include "planning/design/design_file.h"
+#include "planning/plan_drawing/scene_plan.h"
 
 namespace parvis::viewer {
 namespace {
@@ -47,6 +48,21 @@ std::vector<std::string> Planning::designs() const {
   return names;
 }
 
+/// Kerbs, walls and the lines of drawings, to which points are drawn. Of a large city the plan would take
+/// seconds: there points are drawn to the objects of designs alone.
+const std::vector<planner::PlanSegment>& Planning::plan_lines() {
+  constexpr std::size_t max_triangles = 400'000;
+  std::size_t triangles = 0;
+  for (const scene::Object& object : visit_.scene().objects) triangles += object.model->triangle_count();
+  if (!plan_lines_.empty() || triangles > max_triangles) return plan_lines_;
+  const plan_drawing::ScenePlan plan = plan_drawing::plan_of(
+      visit_.scene(), design::placed_objects(visit_.scene(), visit_.live(), "", false));
+  for (const plan_drawing::PlanLine& line : plan.lines)
+    for (std::size_t i = 0; i + 1 < line.points.size(); ++i)
+      plan_lines_.push_back({glm::dvec2(line.points[i]), glm::dvec2(line.points[i + 1])});
+  return plan_lines_;
+}
+
 void Planning::open(const std::string& design) {
   house::Play& play = visit_.stage().play();
   const auto heights = [surfaces = surfaces_](glm::dvec2 at, const design::Names& without) {
@@ -55,6 +71,7 @@ void Planning::open(const std::string& design) {
   Result<design::Session> session = design::Session::open(play.scene, play.live(), design, heights);
   if (!session) return visit_.notice_error(to_string(session.errors()));
   desk_ = std::make_unique<Desk>(play, *std::move(session), *surfaces_);
+  desk_->tool.set_plan(plan_lines());
   if (play.scene.file.empty()) return;
   const Result<std::string> restored =
       desk_->session.keep_journal(design::journal_file(play.scene.file, desk_->session.name()));

@@ -85,6 +85,7 @@ class Planning {
         : session(std::move(opened)), tool(play.scene, play.live(), session, surfaces) {}
   };
   void open(const std::string& design);
+  const std::vector<planner::PlanSegment>& plan_lines();
 
   Visit& visit_;
   planner::Language language_;
@@ -92,6 +93,7 @@ class Planning {
   bool is_on_ = false, waits_for_balcony_ = false;
   std::unique_ptr<Desk> desk_;
   std::optional<Camera> street_view_;  ///< to which one comes back
+  std::vector<planner::PlanSegment> plan_lines_;
   std::map<int, Camera> kept_views_;
   std::string saved_at_, compared_;
   float quiet_s_ = 0.0f;  ///< for how long the pointer has rested

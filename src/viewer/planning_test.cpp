@@ -1,0 +1,138 @@
+// Planning in a visit: what hangs on the pointer looks as it will stand, and a design is kept.
+#include "viewer/planning.h"
+
+#include <fstream>
+#include <sstream>
+
+#include "graphics/reference/metrics.h"
+#include "viewer/test_square.h"
+
+namespace parvis::viewer {
+namespace {
+
+constexpr glm::ivec2 size(480, 270);
+
+class PlanningTest : public SquareTest {
+ protected:
+  void SetUp() override {
+    SquareTest::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    planning_.emplace(*visit_, planner::Language::english);
+    planning_->turn_on(true);
+    ASSERT_TRUE(planning_->is_on()) << told();
+    visit_->look_from("roof");
+  }
+
+  planner::Pointer at(glm::vec3 place) const {
+    planner::Pointer pointer;
+    pointer.camera = visit_->camera(), pointer.size = size;
+    const glm::vec4 clip = pointer.camera.clip_from_camera(float(size.x) / float(size.y)) *
+                           pointer.camera.camera_from_world() * glm::vec4(place, 1.0f);
+    pointer.pixel = (glm::dvec2(clip) / double(clip.w) * glm::dvec2(0.5, -0.5) + 0.5) * glm::dvec2(size);
+    pointer.is_free = true;
+    return pointer;
+  }
+  Image8 held() {
+    for (int i = 0; i < 3; ++i) planning_->draw_held(size.x, size.y);
+    return stage_->picture();
+  }
+  Image8 whole() {
+    stage_->draw(visit_->camera(), size.x, size.y);
+    return stage_->whole_picture();
+  }
+  double flip_over(const Image8& a, const Image8& b, const std::string& object) {
+    const render::ObjectPicture picked = stage_->renderer().pick(visit_->camera(), size.x, size.y, false);
+    Image8 mask(size.x, size.y, 1);
+    for (std::size_t i = 0; i < mask.pixels.size(); ++i)
+      if (picked.pixels[i] > 0 && picked.pixels[i] <= visit_->scene().objects.size())
+        mask.pixels[i] = visit_->scene().objects[picked.pixels[i] - 1].name == object ? 255 : 0;
+    const auto difference = reference::compare(a, b, mask);
+    EXPECT_TRUE(difference) << object << " is not in the picture";
+    return difference ? difference->flip : 1.0;
+  }
+  void place(const char* kind, glm::vec3 where) {
+    planning_->tool()->choose_kind(kind);
+    planning_->tool()->press(at(where));
+    const Status status = planning_->tool()->release(at(where));
+    ASSERT_TRUE(status) << to_string(status.errors());
+  }
+
+  std::optional<Planning> planning_;
+};
+
+TEST_F(PlanningTest, WhatHangsOnThePointerLooksAsItWillStand) {
+  planning_->tool()->choose_kind("kiosk");
+  planning_->tool()->point(at({1, -4, 0}));
+  ASSERT_TRUE(planning_->holds_things());
+  const Image8 before = held();
+  place("kiosk", {1, -4, 0});
+  planning_->tool()->choose(planner::Mode::select);
+  planning_->tool()->settle();
+  ASSERT_FALSE(planning_->holds_things());
+  const Image8 after = whole();
+  EXPECT_LT(flip_over(before, after, "kiosk_1"), 0.02);
+  planning_->tool()->choose_kind("kiosk");
+  planning_->tool()->point(at({1.2f, -4, 0}));
+  EXPECT_GT(flip_over(held(), after, "kiosk_1"), 0.02) << "the control: 20 cm beside it";
+}
+
+TEST_F(PlanningTest, WhatStandsBeforeItHidesIt) {
+  visit_->look_from("street");
+  planning_->tool()->choose_kind("bollard");
+  const Image8 without = whole();
+  design::Preview preview(visit_->scene(), visit_->live());
+  const design::Command insert = design::Insert{"bollard", {6, 14, 0}};
+  const auto changes = design::changes_of(planning_->session()->view(), insert);
+  ASSERT_TRUE(changes);
+  ASSERT_TRUE(preview.show(*changes, nullptr, false));
+  for (int i = 0; i < 3; ++i)
+    stage_->draw_held(visit_->camera(), size.x, size.y, preview.what_stays(), preview.scene());
+  const auto difference = reference::compare(stage_->picture(), without);
+  ASSERT_TRUE(difference);
+  EXPECT_EQ(difference->flip, 0.0);
+}
+
+TEST_F(PlanningTest, TheSceneStandsStillMeanwhileAndTheDesignIsKept) {
+  place("bench_stone", {2, -5, 0});
+  EXPECT_EQ(planning_->session()->objects().size(), 1u);
+  EXPECT_TRUE(planning_->holds_things()) << "until it settles";
+  planning_->step(1.0f, false);
+  EXPECT_TRUE(planning_->run("select all"));
+  planning_->save();
+  std::ifstream file(folder_.path() / "square-design.xp");
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_NE(text.str().find("bench_stone_1"), std::string::npos) << told();
+  planning_->undo();
+  EXPECT_TRUE(planning_->session()->objects().empty());
+  planning_->redo();
+  EXPECT_EQ(planning_->session()->objects().size(), 1u);
+}
+
+TEST_F(PlanningTest, ViewsFlyToThePlanAndBack) {
+  const glm::vec3 eye = visit_->camera().position_in_world();
+  planning_->look(PlanningView::plan);
+  for (int i = 0; i < 20; ++i) wait(0.1f);
+  EXPECT_TRUE(visit_->camera().parallel);
+  place("bin", {0, 0, 0});
+  EXPECT_NEAR(planning_->session()->objects().front().position.x, 0.0, 0.1);
+  planning_->look(PlanningView::street);
+  for (int i = 0; i < 20; ++i) wait(0.1f);
+  EXPECT_FALSE(visit_->camera().parallel);
+  EXPECT_LT(glm::distance(visit_->camera().position_in_world(), eye), 0.01f);
+}
+
+TEST_F(PlanningTest, AClickOnAWallStandsThere) {
+  visit_->look_from("street");
+  planning_->look(PlanningView::balcony);
+  EXPECT_FALSE(planning_->stand_at(at({-2, -5, 0}))) << "the ground is no wall";
+  EXPECT_TRUE(planning_->waits_for_balcony());
+  EXPECT_TRUE(planning_->stand_at(at({6, 11, 5})));
+  for (int i = 0; i < 20; ++i) wait(0.1f);
+  const glm::vec3 eye = visit_->camera().position_in_world();
+  EXPECT_LT(glm::distance(eye, glm::vec3(6, 10.65f, 5)), 0.2f);
+  EXPECT_LT(visit_->camera().forward_in_world().y, -0.8f) << "away from the wall";
+}
+
+}  // namespace
+}  // namespace parvis::viewer
