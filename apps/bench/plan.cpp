@@ -59,7 +59,7 @@ void measure_drag(house::Stage& stage, Table& table, bool is_quick, Report& repo
   design::Preview preview(stage.scene(), table.play.live());
   const auto hold_at = [&](glm::dvec2 at) {
     const design::Command insert = design::Insert{"bench_stone", glm::dvec3(at, design::rests)};
-    must(preview.show(must(design::changes_of(table.session.view(), insert)), table.session.design(), false));
+    must(preview.show(must(design::changes_of(table.session.view(), insert)), table.session.design()));
     stage.draw_held(camera, width, height, preview.what_stays(), preview.scene());
     stage.display(0);
     glFinish();
@@ -95,7 +95,7 @@ void measure_insertion(house::Stage& stage, Table& table, bool is_quick, Report&
     const auto show = [&] {
       const scene::Node* node = stage.play().live().find(name);
       must(preview.show(node ? design::Changes{{*node, *node, {}}} : design::Changes{},
-                        table.session.design(), false));
+                        table.session.design()));
       stage.draw_held(camera, width, height, preview.what_stays(), preview.scene());
       stage.display(0);
       glFinish();

@@ -12,7 +12,7 @@ namespace parvis::viewer {
 namespace {
 
 constexpr double apart_m = 60.0;      // between kinds: none is in another's picture
-constexpr std::uint64_t version = 1;  // of how kinds are drawn: another one draws all again
+constexpr std::uint64_t version = 2;  // of how kinds are drawn: another one draws all again
 
 std::uint64_t key_of(const design::Kind& kind) {
   ContentHash hash;
@@ -30,8 +30,8 @@ Result<scene::Scene> scene_of(const std::vector<design::Kind>& kinds, const scen
     script += fmt::format("placed(name=kind_{}, kind=\"{}\", position=\"{} 0 0\", heading_deg=180)\n", i,
                           kinds[i].name, x);
     script += fmt::format(
-        "surface(material=plain, colour=\"#B9B4AB\", outline=\"{0} -29, {1} -29, {1} 29, {0} 29\")\n",
-        x - 29.0, x + 29.0);
+        "surface(material=plain, colour=\"#B9B4AB\", outline=\"{0} -400, {1} -400, {1} 400, {0} 400\")\n",
+        x - 0.5 * apart_m, x + 0.5 * apart_m);
   }
   const Result<scene::Nodes> nodes =
       scene::check_piece(script + "}", "catalogue", scene::top_level, {}, registry, Roots(""));

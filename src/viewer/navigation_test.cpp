@@ -108,7 +108,8 @@ TEST(Navigation, APlanIsZoomedAtThePointerAndDrawnAlong) {
   ASSERT_EQ(visitor.mode(), Mode::plan);
   ASSERT_TRUE(visitor.camera().parallel);
   const auto at = [&](glm::vec2 from_middle) {  // in heights of the picture
-    return glm::vec2(visitor.camera().position_in_world()) + visitor.camera().parallel->height_m * from_middle;
+    return glm::vec2(visitor.camera().position_in_world()) +
+           visitor.camera().parallel->height_m * from_middle;
   };
   const glm::vec2 pointer(0.3f, -0.2f), below = at(pointer);
   Controls wheel;

@@ -55,8 +55,8 @@ const std::vector<planner::PlanSegment>& Planning::plan_lines() {
   std::size_t triangles = 0;
   for (const scene::Object& object : visit_.scene().objects) triangles += object.model->triangle_count();
   if (!plan_lines_.empty() || triangles > max_triangles) return plan_lines_;
-  const plan_drawing::ScenePlan plan = plan_drawing::plan_of(
-      visit_.scene(), design::placed_objects(visit_.scene(), visit_.live(), "", false));
+  const plan_drawing::ScenePlan plan =
+      plan_drawing::plan_of(visit_.scene(), design::placed_objects(visit_.scene(), visit_.live(), "", false));
   for (const plan_drawing::PlanLine& line : plan.lines)
     for (std::size_t i = 0; i + 1 < line.points.size(); ++i)
       plan_lines_.push_back({glm::dvec2(line.points[i]), glm::dvec2(line.points[i + 1])});

@@ -209,7 +209,7 @@ void PlanningBars::draw_hint(float width) {
 void PlanningBars::draw_catalogue(float width) {
   pictures_.make_one();
   const float side = picture_side * imgui_.scale(), foot = bar_height * imgui_.scale();
-  const float height = side + 98.0f * imgui_.scale();
+  const float height = side + 114.0f * imgui_.scale();
   ImGui::SetNextWindowPos({tools_width * imgui_.scale(), ImGui::GetIO().DisplaySize.y - foot - height});
   ImGui::SetNextWindowSize({width - tools_width * imgui_.scale(), height});
   ImGui::SetNextWindowBgAlpha(0.93f);
@@ -320,7 +320,10 @@ void PlanningBars::draw_inspector(PanelRows& rows) {
       kinds.push_back(each.name);
       labels.push_back(planning_.word("Width") == "Width" ? each.label : each.label_fr);
     }
-    const std::string now = kind ? first.label : planning_.word("mixed");
+    const auto known = std::ranges::find(kinds, kind.value_or(""));
+    const std::string now = !kind                  ? planning_.word("mixed")
+                            : known == kinds.end() ? first.label
+                                                   : labels[std::size_t(known - kinds.begin())];
     if (const auto wanted = rows.choice(planning_.word("Kind"), labels, now))
       planning_.run(fmt::format("swap {} for {}", names, kinds[*wanted]));
     if (chosen.size() == 1) {

@@ -9,7 +9,7 @@
 namespace parvis::design {
 namespace {
 
-constexpr double same_place_m = 0.05, same_length_m = 1e-4, same_angle_deg = 0.01;
+constexpr double same_foot_m = 0.05, same_length_m = 1e-4, same_angle_deg = 0.01;
 
 bool looks_alike(const PlacedObject& a, const PlacedObject& b) {
   return glm::distance(a.size_m, b.size_m) < same_length_m && glm::distance(a.colour, b.colour) < 1e-3f &&
@@ -33,8 +33,8 @@ std::vector<std::optional<std::size_t>> counterparts(const std::vector<PlacedObj
   };
   match([](const PlacedObject& a, const PlacedObject& b) { return a.name == b.name; });
   match([](const PlacedObject& a, const PlacedObject& b) {
-    return glm::distance(a.position, b.position) < same_place_m &&
-           glm::distance(a.size_m, b.size_m) < same_place_m;
+    return glm::distance(a.position, b.position) < same_foot_m &&
+           glm::distance(a.size_m, b.size_m) < same_foot_m;
   });
   return found;
 }

@@ -1,7 +1,6 @@
 #include "planning/design/preview.h"
 
 #include <algorithm>
-#include <set>
 
 #include "life/vegetation/plant_drawable.h"
 #include "life/vegetation/scene_plant.h"
@@ -20,12 +19,16 @@ void Preview::clear() {
   shown_.data<vegetation::ScenePlants>() = {};
 }
 
-Status Preview::show(const Changes& changes, const scene::Node* design, bool is_refused) {
+Status Preview::show(const Changes& changes, const scene::Node* design, std::size_t refused) {
   clear();
   scene::Nodes nodes;
-  for (const Change& change : changes) {
+  std::set<std::string> in_red;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const Change& change = changes[i];
     if (change.before) taken_.push_back(change.before->text("name"));
-    if (change.after) nodes.push_back(*change.after), names_.push_back(change.after->text("name"));
+    if (!change.after) continue;
+    nodes.push_back(*change.after), names_.push_back(change.after->text("name"));
+    if (i < refused) in_red.insert(names_.back());
   }
   scene::SceneBuilder builder(live_.registry(), std::move(models_));
   builder.scene.data<Kinds>() = place_.data<Kinds>();
@@ -44,14 +47,14 @@ Status Preview::show(const Changes& changes, const scene::Node* design, bool is_
   shown_.traced_kinds = place_.traced_kinds;
   shown_.data<vegetation::PlantDetail>() = place_.data<vegetation::PlantDetail>();
   shown_.data<vegetation::ScenePlants>() = built.data<vegetation::ScenePlants>();
-  put_objects(std::move(built.objects), is_refused);
+  put_objects(std::move(built.objects), in_red);
   return Done{};
 }
 
 /// Each takes the place of a hidden one of the same model and paint, so that nothing is uploaded again.
-void Preview::put_objects(std::vector<scene::Object> objects, bool is_refused) {
+void Preview::put_objects(std::vector<scene::Object> objects, const std::set<std::string>& refused) {
   for (scene::Object& object : objects) {
-    if (is_refused) {
+    if (refused.contains(object.name)) {
       std::shared_ptr<const std::vector<scene::Material>>& red = red_[object.model.get()];
       if (!red) {
         std::vector<scene::Material> materials = object.materials();

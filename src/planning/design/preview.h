@@ -2,6 +2,10 @@
 // small scene of their own.
 #pragma once
 
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "planning/design/session.h"
@@ -14,9 +18,9 @@ class Preview {
   /// Both outlive it.
   Preview(const scene::Scene& scene, const scene::LiveScene& live) : place_(scene), live_(live) {}
 
-  /// Shows what these changes bring, as they would stand in the design (null: a new one at the top level), in
-  /// red where they are `refused`. Errors: those that building them meets; nothing is shown then.
-  Status show(const Changes& changes, const scene::Node* design, bool is_refused);
+  /// Shows what these changes bring, as they would stand in the design (null: a new one at the top level),
+  /// the first `refused` of them in red. Errors: those that building them meets; nothing is shown then.
+  Status show(const Changes& changes, const scene::Node* design, std::size_t refused = 0);
   /// Shows nothing.
   void clear();
   bool is_empty() const { return names_.empty(); }
@@ -30,7 +34,7 @@ class Preview {
   const Names& taken() const { return taken_; }
 
  private:
-  void put_objects(std::vector<scene::Object> objects, bool is_refused);
+  void put_objects(std::vector<scene::Object> objects, const std::set<std::string>& refused);
 
   const scene::Scene& place_;
   const scene::LiveScene& live_;

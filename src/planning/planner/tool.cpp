@@ -91,6 +91,7 @@ void Tool::give_up() {
 void Tool::choose(Mode mode) {
   give_up();
   points_.clear(), measured_.clear(), kind_.clear();
+  placed_at_.reset();
   mode_ = mode;
 }
 
@@ -207,7 +208,7 @@ void Tool::show(const std::optional<design::Command>& command) {
       refusals = made.errors();
   }
   if (!refusals.empty()) refusal_ = refusals.front().message;
-  const bool is_refused = !refusals.empty();
+  const std::size_t refused = refusals.empty() ? 0 : changes.size();
   for (const std::string& name : unsettled_) {
     const scene::Node* node = live_.find(name);
     const bool moves = std::ranges::any_of(changes, [&](const design::Change& change) {
@@ -215,12 +216,15 @@ void Tool::show(const std::optional<design::Command>& command) {
     });
     if (node && !moves) changes.push_back({*node, *node, {}});
   }
-  if (const Status status = preview_.show(changes, session_.design(), is_refused); !status)
+  if (const Status status = preview_.show(changes, session_.design(), refused); !status)
     refusal_ = status.errors().front().message;
 }
 
 void Tool::point_for_insertion(const Pointer& pointer) {
-  if (!place_) return show(std::nullopt);
+  constexpr double same_click_px = 3.0;  // what was placed there does not hang there, too
+  if (!place_ || (placed_at_ && glm::distance(*placed_at_, pointer.pixel) < same_click_px))
+    return show(std::nullopt);
+  placed_at_.reset();
   const std::optional<glm::dvec2> from =
       is_pressed_ && pressed_place_ ? std::optional(glm::dvec2(*pressed_place_)) : std::nullopt;
   place_ = snap_point(pointer, *place_, {}, from);
@@ -344,7 +348,10 @@ Status Tool::release(const Pointer& pointer) {
     is_pressed_ = pressed_place_.has_value();  // a row reaches from where the button was pressed
     const std::optional<design::Command> command = command_now();
     is_pressed_ = false;
-    if (command) return run(*command);
+    if (command) {
+      placed_at_ = pointer.pixel;
+      return run(*command);
+    }
     show(std::nullopt);
     return Done{};
   }

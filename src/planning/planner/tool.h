@@ -152,6 +152,7 @@ class Tool {
   glm::dvec2 moved_{0.0};    ///< of an action: the way so far
   double turned_deg_ = 0.0, factor_ = 1.0;
   design::Names unsettled_;
+  std::optional<glm::dvec2> placed_at_;  ///< the pixel of the last click that placed something
   Snapped snapped_;
   double snapped_height_m_ = 0.0;
   std::vector<glm::dvec3> points_;  ///< of a surface or a measurement

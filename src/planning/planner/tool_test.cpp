@@ -114,6 +114,9 @@ TEST_F(ToolTest, WhatWasPlacedStaysInThePictureUntilItSettles) {
   click(at({1, 1, 0}));
   EXPECT_TRUE(tool_->has_unsettled());
   EXPECT_FALSE(tool_->preview().is_empty());
+  tool_->point(at({1, 1, 0}));
+  EXPECT_EQ(tool_->refusal(), "") << "the click's own place is no taken one";
+  for (const scene::Object& shown : tool_->preview().scene().objects) EXPECT_EQ(shown.paint, nullptr);
   const std::vector<std::uint8_t> stays = tool_->preview().what_stays();
   EXPECT_EQ(stays.back(), 0) << "the picture below is still that without it";
   tool_->leave();
