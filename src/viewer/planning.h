@@ -46,9 +46,11 @@ class Planning {
 
   /// Runs a command of the session; an error becomes a notice.
   bool run(const std::string& command);
-  /// Tells an error; false: there was one.
+  /// Makes an error a notice; false: there was one.
   bool tell(const Status& status);
+  /// Takes the last step back.
   void undo();
+  /// Does the step again that was taken back last.
   void redo();
   /// Writes the design into its file, or beside the scene where it has none.
   void save();
@@ -61,8 +63,9 @@ class Planning {
   bool waits_for_balcony() const { return waits_for_balcony_; }
   /// Stands at a wall that the pointer shows, looking away from it. False: it shows none.
   bool stand_at(const planner::Pointer& pointer);
-  /// Keeps the present view under a number 1 to 9, and goes to it.
+  /// Keeps the present view under a number 1 to 9.
   void keep_view(int number);
+  /// Flies to the view that was kept under a number.
   void go_to_view(int number);
   /// Frames what is selected.
   void frame_selection();

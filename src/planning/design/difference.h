@@ -17,6 +17,7 @@ struct Difference {
   PlacedObject before, after;
   double moved_m = 0.0;  ///< between the two feet
 
+  /// The one that there is: the later of the two.
   const PlacedObject& shown() const {
     return how == Differs::removed ? before : after;
   }  ///< the one there is

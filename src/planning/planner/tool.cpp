@@ -15,7 +15,7 @@ using design::Names, design::PlacedObject;
 
 constexpr double snap_px = 9.0, drag_px = 4.0, close_px = 10.0;
 constexpr double heading_step_deg = 15.0;
-constexpr double row_gap_m = 1.2;  // between objects of a row, unless they are told apart
+constexpr double row_gap_m = 1.2;  // between objects of a row, at least
 
 reference::Ray ray_of(const Pointer& pointer) {
   return reference::camera_ray(pointer.camera, pointer.size.x, pointer.size.y, glm::vec2(pointer.pixel));

@@ -1,5 +1,5 @@
 // The tool in a planner's hand: what pointer and keys do to a design, in any view. It knows nothing of
-// windows: it is told where the pointer is, and says what is under way.
+// windows: it takes the place of the pointer, and says what is under way.
 #pragma once
 
 #include <optional>
@@ -32,6 +32,7 @@ enum class Action : unsigned char { none, move, turn, resize, box };
 /// A distance that is shown while something moves, or that was measured.
 struct Dimension {
   glm::dvec3 from{0.0}, to{0.0};
+  /// Between its ends.
   double length_m() const { return glm::distance(from, to); }
 };
 
@@ -85,7 +86,7 @@ class Tool {
   Status confirm();
 
   /// What was placed or moved last stands in the picture as the pointer held it, until this is called: then
-  /// the picture may be drawn anew, with its shadow.
+  /// the picture may be drawn again, with its shadow.
   void settle();
   /// Is there anything of that kind?
   bool has_unsettled() const { return !unsettled_.empty(); }

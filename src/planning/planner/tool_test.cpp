@@ -212,7 +212,7 @@ TEST_F(ToolTest, EscapeUndoesWhatIsUnderWayAndNothingElse) {
   EXPECT_EQ(session_->selected(), design::Names{"b"});
 }
 
-TEST_F(ToolTest, LeavesOutOfThePictureBelowWhatMoves) {
+TEST_F(ToolTest, LeavesWhatIsDraggedOutOfThePictureBelow) {
   place(
       "design(name=a) { placed(kind=bench_stone, name=b, position=\"1 1 0\")"
       " placed(kind=bench_stone, name=c, position=\"-3 1 0\") }");
