@@ -493,7 +493,7 @@ const char* Tool::hint() const {
       break;
   }
   return session_.objects().empty()
-             ? "Press K for the catalogue, or drop a model on the window."
+             ? "Press K for the catalogue."
              : "Click an object to select it; drag it to move it. Shift adds to the selection.";
 }
 
