@@ -1412,9 +1412,12 @@ class Window(InAFolder):
             "drive.sh",
             f"{shlex.join(map(str, [PARVIS, 'view', *command, '--size', '1280x720']))} & parvis=$!\n"
             "timeout 60 xdotool search --sync --onlyvisible --name Parvis > window || exit 3\n"
-            "at() { xdotool mousemove --window $(cat window) $1 $2 sleep 0.4; }\n"
-            "click() { at $1 $2; xdotool click 1 sleep 0.6; }\n"
-            "key() { xdotool key $1 sleep 0.5; }\n" + steps,
+            "at() { xdotool mousemove --window $(cat window) $1 $2 sleep 1; }\n"
+            "click() { at $1 $2; xdotool click 1 sleep 2; }\n"
+            "key() { xdotool key $1 sleep 1; }\n"
+            # All kinds of the catalogue are drawn and kept.
+            "pictures() { for i in $(seq 200); do [ $(ls parvis 2> /dev/null | wc -l) -ge 15 ] && break; sleep 0.5; done; sleep 2; }\n"
+            "sleep 6\n" + steps,  # the window is there before its first frame
         )
         done = subprocess.run(
             [*self.display(), "-s", "-screen 0 1280x720x24", "sh", str(script)],
@@ -1424,10 +1427,10 @@ class Window(InAFolder):
         return done
 
     def write_square(self):
-        self.write("ground.glb", glb(*triangle(positions=(-60, -60, 0, 60, -60, 0, 0, 90, 0))))
         return self.write(
             "square.xp",
-            'sun(azimuth_deg=200, elevation_deg=40)\nmodel(file="ground.glb", name=ground)\n'
+            'sun(azimuth_deg=200, elevation_deg=40)\n'
+            'design(name=design) { surface(name=ground, material=plain, outline="-60 -60, 60 -60, 60 60, -60 60") }\n'
             'camera(name="street", position="0 -12 1.7", target="0 0 0.5")\n',
         )
 
@@ -1436,18 +1439,17 @@ class Window(InAFolder):
         last = self.folder / "last.png"
         self.drive(
             [scene, "--plan", "--screenshot", last],
-            "key k\nclick 110 590\n"  # the first picture of the catalogue
+            "key k\npictures\nclick 110 590\n"  # the first picture of the catalogue
             "click 640 400\nkey Escape\nkey k\n"
             "key 4\nsleep 2.5\nclick 700 250\nclick 640 360\n"  # in the plan
             "key ctrl+s\nkey Escape\nkey Escape\nkey Escape\nwait $parvis\n",
         )
-        saved = self.folder / "square-design.xp"
-        self.assertIn("bench_wood", saved.read_text())
-        self.assertIn("bench_wood_1", run("plan", saved, "--list").stdout)
+        self.assertIn("bench_wood", scene.read_text(), "the design is saved in its own file")
+        self.assertIn("bench_wood_1", run("plan", scene, "--list").stdout)
 
     def test_what_was_done_is_there_again_after_a_kill(self):
         scene = self.write_square()
-        self.drive([scene, "--plan"], "key k\nclick 110 590\nclick 640 400\nsleep 1\nkill -9 $parvis\nwait $parvis\ntrue\n")
+        self.drive([scene, "--plan"], "key k\npictures\nclick 110 590\nclick 640 400\nsleep 1\nkill -9 $parvis\nwait $parvis\ntrue\n")
         listed = run("plan", scene, "--journal", "--list").stdout
         self.assertIn("bench_wood_1", listed)
         self.assertIn("steps that had not been saved are there again", listed)

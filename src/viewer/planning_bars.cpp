@@ -207,7 +207,13 @@ void PlanningBars::draw_hint(float width) {
 }
 
 void PlanningBars::draw_catalogue(float width) {
-  pictures_.make_one();
+  // A picture takes as long as a frame or more: none is made while a hand is at work.
+  constexpr int rest_frames = 8;
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool is_at_work = io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f || ImGui::IsAnyMouseDown() ||
+                          ImGui::IsMouseReleased(ImGuiMouseButton_Left);
+  resting_frames_ = is_at_work ? 0 : resting_frames_ + 1;
+  if (resting_frames_ > rest_frames) pictures_.make_one();
   const float side = picture_side * imgui_.scale(), foot = bar_height * imgui_.scale();
   const float height = side + 114.0f * imgui_.scale();
   ImGui::SetNextWindowPos({tools_width * imgui_.scale(), ImGui::GetIO().DisplaySize.y - foot - height});

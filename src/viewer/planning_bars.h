@@ -39,6 +39,7 @@ class PlanningBars {
   Overlay overlay_;
   KindPictures pictures_;
   std::string search_, tab_ = "all";
+  int resting_frames_ = 0;  ///< since a hand was at work
   Places places_;
 };
 

@@ -181,7 +181,7 @@ std::optional<design::Command> Tool::command_now() const {
     case Action::none:
       break;
   }
-  if (mode_ != Mode::insert || kind_.empty() || !place_) return std::nullopt;
+  if (mode_ != Mode::insert || kind_.empty() || !place_ || placed_at_) return std::nullopt;
   const bool is_row = is_pressed_ && pressed_place_ &&
                       glm::distance(pointer_.pixel, pressed_.pixel) > drag_px &&
                       glm::distance(glm::dvec2(*place_), glm::dvec2(*pressed_place_)) > 0.3;
@@ -222,9 +222,8 @@ void Tool::show(const std::optional<design::Command>& command) {
 
 void Tool::point_for_insertion(const Pointer& pointer) {
   constexpr double same_click_px = 3.0;  // what was placed there does not hang there, too
-  if (!place_ || (placed_at_ && glm::distance(*placed_at_, pointer.pixel) < same_click_px))
-    return show(std::nullopt);
-  placed_at_.reset();
+  if (placed_at_ && glm::distance(*placed_at_, pointer.pixel) >= same_click_px) placed_at_.reset();
+  if (!place_) return show(std::nullopt);
   const std::optional<glm::dvec2> from =
       is_pressed_ && pressed_place_ ? std::optional(glm::dvec2(*pressed_place_)) : std::nullopt;
   place_ = snap_point(pointer, *place_, {}, from);

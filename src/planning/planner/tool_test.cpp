@@ -121,8 +121,11 @@ TEST_F(ToolTest, WhatWasPlacedStaysInThePictureUntilItSettles) {
   EXPECT_EQ(stays.back(), 0) << "the picture below is still that without it";
   tool_->leave();
   EXPECT_FALSE(tool_->preview().is_empty());
+  tool_->point(at({1, 1, 0}));
   tool_->settle();
-  EXPECT_TRUE(tool_->preview().is_empty());
+  EXPECT_TRUE(tool_->preview().is_empty()) << "none hangs there until the pointer moves";
+  tool_->point(at({2, 1, 0}));
+  EXPECT_FALSE(tool_->preview().is_empty());
   EXPECT_EQ(session_->objects().size(), 1u);
 }
 
