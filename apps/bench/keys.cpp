@@ -48,7 +48,7 @@ constexpr Key keys[]{
     {"ifc_load_ms", "ms", {}, "scenes/pavilion.ifc in a child process"},
     // plan
     {"insert_to_picture_ms", "ms", maximum(150.0), "paper city, 1280x720: a bollard inserted, to its picture over the kept one, without shadow", {{"insert_to_whole_picture_ms"}}},
-    {"drag_fps", "fps", minimum(10.0), "the same view: a stone bench dragged over the kept picture, all pixels"},
+    {"drag_fps", "fps", minimum(10.0), "the same view: a stone bench dragged over the kept picture, all pixels", {{"drag_fps_of_whole_pictures"}}},
     {"drag_picture_flip", "FLIP", maximum(0.02), "the bench's pixels, held against drawn whole", {{"drag_picture_flip_3_cm_beside"}}},
     {"plan_precision_mm", "mm", maximum(1.0), "40 bollards: rays to their sides against what was typed", {{"plan_precision_mm_to_the_centimetre"}}},
     {"undo_replay_identical", "", minimum(1.0), "10,000 random commands (1,000): undone, redone, replayed from the journal", {{"undo_replay_identical_of_one_step_less"}}},

@@ -70,7 +70,10 @@ void measure_drag(house::Stage& stage, Table& table, bool is_quick, Report& repo
     drags_ms.push_back(milliseconds([&] { hold_at(middle + 0.02 * glm::dvec2(i, i % 5)); }));
   const Median drag = median(drags_ms);
   report.add("drag_fps", Median{1e3 / drag.value, 1e3 / drag.high, 1e3 / drag.low});
-  hold_at(middle);
+  const double whole_ms =
+      milliseconds([&] { stage.draw(camera, width, height), stage.display(0), glFinish(); });
+  report.add("drag_fps_of_whole_pictures", 1e3 / whole_ms);
+  for (int i = 0; i < 3; ++i) hold_at(middle);
   const Image8 held = stage.picture();
   hold_at(middle + glm::dvec2(0.03, 0.0));
   const Image8 beside = stage.picture();

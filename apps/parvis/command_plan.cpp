@@ -45,7 +45,7 @@ void list_objects(const design::Session& session) {
                object.size_m.x, object.size_m.y, object.size_m.z, object.is_locked ? ", locked" : "");
 }
 
-/// What turns the other design into this one.
+/// Prints each difference that turns the other design into this one, and their counts.
 Status list_differences(const design::Session& session, const house::Play& play, const std::string& other) {
   std::vector<std::string> names;
   for (const scene::Node* node : design::designs_of(play.live())) names.push_back(node->text("name"));

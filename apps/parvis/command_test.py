@@ -1324,6 +1324,8 @@ class Surroundings(InAFolder):
 
 
 class Window(InAFolder):
+    pictures = tempfile.TemporaryDirectory()  # of the catalogue, for all tests
+
     def display(self):
         """The command that runs another one in front of a display of its own.
 
@@ -1416,12 +1418,12 @@ class Window(InAFolder):
             "click() { at $1 $2; xdotool click 1 sleep 2; }\n"
             "key() { xdotool key $1 sleep 1; }\n"
             # All kinds of the catalogue are drawn and kept.
-            "pictures() { for i in $(seq 200); do [ $(ls parvis 2> /dev/null | wc -l) -ge 15 ] && break; sleep 0.5; done; sleep 2; }\n"
+            f"pictures() {{ for i in $(seq 200); do [ $(ls {self.pictures.name}/parvis 2> /dev/null | wc -l) -ge 15 ] && break; sleep 0.5; done; sleep 2; }}\n"
             "sleep 6\n" + steps,  # the window is there before its first frame
         )
         done = subprocess.run(
             [*self.display(), "-s", "-screen 0 1280x720x24", "sh", str(script)],
-            capture_output=True, text=True, timeout=240, cwd=self.folder, env={**os.environ, "XDG_CACHE_HOME": str(self.folder)}, **options,
+            capture_output=True, text=True, timeout=240, cwd=self.folder, env={**os.environ, "XDG_CACHE_HOME": self.pictures.name}, **options,
         )
         self.assertEqual(done.returncode, 0, done.stderr)
         return done

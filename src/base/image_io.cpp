@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// At the front of what a worker returns; pixels follow.
+/// The header of what a worker returns; pixels follow.
 struct PictureHeader {
   int width, height, channels;
 };
@@ -104,7 +104,7 @@ std::size_t make_finite(ImageF& image) {
   return replaced;
 }
 
-/// At the front of what is to be encoded; name and pixels follow.
+/// The header of what is to be encoded; name and pixels follow.
 struct EncodedHeader {
   int width, height, channels;
   int name_bytes;  ///< a multiple of the size of a value, with zeros at the end: pixels are read in place
@@ -133,8 +133,8 @@ Status encode_pixels(std::string_view input, IsolatedOutput& output) {
   return Done{};
 }
 
-/// What encoding may take beside what is usual, by the size of the pixels: the slowest format writes 2 MB a
-/// second.
+/// Memory that encoding may take beyond the usual, by the size of the pixels: the slowest format writes 2 MB
+/// a second.
 constexpr double encoding_s_per_mb = 5.0;
 
 template <class T>

@@ -21,7 +21,7 @@ const std::string& font_file() {
   return found;
 }
 
-/// At the front of what a worker returns; the covered pixels follow.
+/// The header of what a worker returns; the covered pixels follow.
 struct TextHeader {
   glm::ivec2 corner, size;
 };

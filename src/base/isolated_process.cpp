@@ -369,7 +369,7 @@ Attempt run_here(IsolatedWork work, const Input& input) {
   return attempt;
 }
 
-/// In a worker that has `module`, and whose own calls of run_isolated start workers, too, where
+/// Runs the work in a worker that has `module`, and whose own calls of run_isolated start workers, too, where
 /// `isolates_inner`.
 Attempt run_in_worker(IsolatedWork work, const Input& input, const IsolationLimits& limits,
                       bool isolates_inner, const ModuleName& module) {
@@ -414,7 +414,7 @@ Attempt run_in_worker(IsolatedWork work, const Input& input, const IsolationLimi
   return attempt;
 }
 
-/// In workers that have the modules that the work asks for, one after the other.
+/// Runs the work in workers that have the modules that the work asks for, one after the other.
 Attempt run_with_modules(IsolatedWork work, const Input& input, const IsolationLimits& limits,
                          bool isolates_inner) {
   ModuleName module{};

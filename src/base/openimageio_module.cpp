@@ -63,8 +63,8 @@ bool begins_with(std::span<const std::uint8_t> bytes, const PictureFormat& forma
   return true;
 }
 
-/// By the first bytes; `name`'s extension decides only for formats without such bytes (TGA). Null for any
-/// other.
+/// The format is known by the first bytes; `name`'s extension decides only for formats without such bytes
+/// (TGA). Null for any other.
 const PictureFormat* format_of(std::span<const std::uint8_t> bytes, std::string_view name) {
   const auto found = std::ranges::find_if(formats, [&](const PictureFormat& format) {
     return format.magic.empty() ? has_extension(format, name) : begins_with(bytes, format);
@@ -72,7 +72,8 @@ const PictureFormat* format_of(std::span<const std::uint8_t> bytes, std::string_
   return found == formats.end() || bytes.empty() ? nullptr : &*found;
 }
 
-/// By the extension of a file to be written, in any case; null where Parvis does not write such files.
+/// The format is that of the extension of a file to be written, in any case; null where Parvis does not write
+/// such files.
 const PictureFormat* format_to_write(std::string_view name) {
   const auto found = std::ranges::find_if(formats, [&](const PictureFormat& format) {
     return format.name != "gif" && has_extension(format, name);
@@ -80,8 +81,8 @@ const PictureFormat* format_to_write(std::string_view name) {
   return found == formats.end() ? nullptr : &*found;
 }
 
-/// In a worker: threads that the library had before the fork are gone, and a limit on memory has no room for
-/// many.
+/// A worker calls it: threads that the library had before the fork are gone, and a limit on memory has no
+/// room for many.
 void use_one_thread() {
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);

@@ -47,13 +47,13 @@ struct TextCoverage {
   Image8 coverage;       ///< empty: nothing can be seen of it
 };
 
-/// What OpenImageIO does for us.
+/// The functions that the module offers.
 struct OpenImageIoFunctions {
   DecodePicture<std::uint8_t>* decode_8;
   DecodePicture<float>* decode_float;
   EncodePicture<std::uint8_t>* encode_8;
   EncodePicture<float>* encode_float;
-  /// Of one line, `height_px` high, in the font of a file.
+  /// Draws one line, `height_px` high, in the font of a file.
   Result<TextCoverage> (*cover_text)(const std::string& text, int height_px, const std::string& font_file);
 };
 

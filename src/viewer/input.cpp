@@ -4,6 +4,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "viewer/key_names.h"
@@ -13,6 +14,13 @@ namespace {
 
 constexpr float radians_per_pixel = 0.0025f;
 constexpr double farthest_click = 4.0;  // from press to release, in the window's units: beyond, it is a drag
+
+/// Keys of the planner's tool that go on while they are held: others would switch to and fro.
+bool repeats(int key) {
+  constexpr std::array keys{GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_UP, GLFW_KEY_DOWN,     GLFW_KEY_Q,
+                            GLFW_KEY_E,    GLFW_KEY_Z,     GLFW_KEY_Y,  GLFW_KEY_BACKSPACE};
+  return std::ranges::find(keys, key) != keys.end();
+}
 
 Input& input_of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
 
@@ -52,6 +60,7 @@ bool Input::tell_scene(const std::string& key, int action) {
 void Input::on_key(int key, int action, int modifiers) {
   if (ImGui::GetIO().WantTextInput && action == GLFW_PRESS) return;
   if (tell_scene(key_name(key), action) || action == GLFW_RELEASE) return;
+  if (action == GLFW_REPEAT && !repeats(key)) return;
   if (press_planning(key, modifiers) || action != GLFW_PRESS) return;
   press(key);
 }

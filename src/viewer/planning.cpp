@@ -35,6 +35,23 @@ std::filesystem::path new_file(const std::filesystem::path& scene, const std::st
   }
 }
 
+/// Walking keeps to the ground, climbs steps and stops at walls.
+std::optional<glm::vec3> step_on_foot(design::SceneSurfaces& surfaces, glm::vec3 from, glm::vec3 to) {
+  constexpr float shoulders_m = 0.3f, max_step_m = 0.4f, max_fall_m = 1.2f;
+  const glm::vec2 way = glm::vec2(to - from);
+  const float length_m = glm::length(way);
+  if (length_m < 1e-6f) return to;
+  const glm::vec3 ahead(way / length_m, 0.0f);
+  for (const float above_feet_m : {0.6f, 1.3f}) {
+    const glm::vec3 origin = from + glm::vec3(0.0f, 0.0f, above_feet_m - eye_m);
+    if (surfaces.first_along({origin, ahead, 0.0f, length_m + shoulders_m})) return std::nullopt;
+  }
+  const glm::vec3 knees = to + glm::vec3(0.0f, 0.0f, max_step_m - eye_m);
+  const auto below = surfaces.first_along({knees, {0.0f, 0.0f, -1.0f}, 0.0f, max_step_m + max_fall_m});
+  if (!below) return to;  // nothing to stand on: the eye keeps its height
+  return glm::vec3(to.x, to.y, float(below->position.z) + eye_m);
+}
+
 }  // namespace
 
 Planning::Planning(Visit& visit, planner::Language language)
@@ -63,39 +80,24 @@ const std::vector<planner::PlanSegment>& Planning::plan_lines() {
   return plan_lines_;
 }
 
-void Planning::open(const std::string& design) {
+/// False: it cannot be opened, and the one that was open stays.
+bool Planning::open(const std::string& design) {
   house::Play& play = visit_.stage().play();
   const auto heights = [surfaces = surfaces_](glm::dvec2 at, const design::Names& without) {
     return surfaces->resting_height(at, without);
   };
   Result<design::Session> session = design::Session::open(play.scene, play.live(), design, heights);
-  if (!session) return visit_.notice_error(to_string(session.errors()));
+  if (!session) return tell(session.errors());
   desk_ = std::make_unique<Desk>(play, *std::move(session), *surfaces_);
   desk_->tool.set_plan(plan_lines());
-  if (play.scene.file.empty()) return;
+  if (play.scene.file.empty()) return true;
   const Result<std::string> restored =
       desk_->session.keep_journal(design::journal_file(play.scene.file, desk_->session.name()));
   if (!restored)
     visit_.notice_error(to_string(restored.errors()));
   else if (!restored->empty())
     visit_.notice(*restored);
-}
-
-/// Walking keeps to the ground, climbs steps and stops at walls.
-static std::optional<glm::vec3> step_on_foot(design::SceneSurfaces& surfaces, glm::vec3 from, glm::vec3 to) {
-  constexpr float shoulders_m = 0.3f, max_step_m = 0.4f, max_fall_m = 1.2f;
-  const glm::vec2 way = glm::vec2(to - from);
-  const float length_m = glm::length(way);
-  if (length_m < 1e-6f) return to;
-  const glm::vec3 ahead(way / length_m, 0.0f);
-  for (const float above_feet_m : {0.6f, 1.3f}) {
-    const glm::vec3 origin = from + glm::vec3(0.0f, 0.0f, above_feet_m - eye_m);
-    if (surfaces.first_along({origin, ahead, 0.0f, length_m + shoulders_m})) return std::nullopt;
-  }
-  const glm::vec3 knees = to + glm::vec3(0.0f, 0.0f, max_step_m - eye_m);
-  const auto below = surfaces.first_along({knees, {0.0f, 0.0f, -1.0f}, 0.0f, max_step_m + max_fall_m});
-  if (!below) return to;  // nothing to stand on: the eye keeps its height
-  return glm::vec3(to.x, to.y, float(below->position.z) + eye_m);
+  return true;
 }
 
 void Planning::turn_on(bool on) {
@@ -110,10 +112,9 @@ void Planning::turn_on(bool on) {
 }
 
 void Planning::open_design(const std::string& name) {
+  if (!open(name)) return;
   for (const scene::Node* node : design::designs_of(visit_.live()))
     visit_.live().set(*node, "visible", node->text("name") == name);
-  desk_.reset();
-  open(name);
 }
 
 void Planning::compare_with_next() {

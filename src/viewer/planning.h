@@ -87,7 +87,7 @@ class Planning {
     Desk(house::Play& play, design::Session opened, design::SceneSurfaces& surfaces)
         : session(std::move(opened)), tool(play.scene, play.live(), session, surfaces) {}
   };
-  void open(const std::string& design);
+  bool open(const std::string& design);
   const std::vector<planner::PlanSegment>& plan_lines();
 
   Visit& visit_;

@@ -183,7 +183,7 @@ void PlanningBars::draw_hint(float width) {
                          ? planning_.word("Click a window or a balcony to stand there.")
                      : is_refused ? tool.refusal()
                                   : planning_.word(tool.hint());
-  if (!tool.typed().empty()) said = tool.typed() + " m";
+  if (!tool.typed().empty()) said = tool.typed();
   ImGui::PushStyleColor(ImGuiCol_Text, is_refused ? error_text : ImGui::GetStyleColorVec4(ImGuiCol_Text));
   ImGui::TextUnformatted(said.c_str());
   ImGui::PopStyleColor();

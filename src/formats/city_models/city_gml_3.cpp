@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/city_models/xml_pieces.h"
+
 namespace parvis::scene {
 namespace {
 
@@ -317,15 +319,10 @@ Result<std::string> city_gml_2_of(const std::string& xml, const FileLocation& wh
   XML_SetUserData(parser.get(), &translation);
   XML_SetElementHandler(parser.get(), start_element, end_element);
   XML_SetCharacterDataHandler(parser.get(), on_text);
-  constexpr std::size_t piece = 1 << 20;
-  for (std::size_t at = 0; at == 0 || at < xml.size(); at += piece) {
-    const std::size_t length = std::min(piece, xml.size() - at);
-    if (XML_Parse(parser.get(), xml.data() + at, int(length), at + length == xml.size()) == XML_STATUS_OK)
-      continue;
+  if (!parse_in_pieces(parser.get(), xml))
     return error_at({where.file, int(XML_GetCurrentLineNumber(parser.get())),
                      int(XML_GetCurrentColumnNumber(parser.get())) + 1},
                     "its namespaces cannot be read: {}", XML_ErrorString(XML_GetErrorCode(parser.get())));
-  }
   return std::move(translation).take();
 }
 

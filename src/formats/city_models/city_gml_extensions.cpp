@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/city_models/xml_pieces.h"
+
 namespace parvis::scene {
 namespace {
 
@@ -22,7 +24,7 @@ bool is_of_city_gml(std::string_view uri) {
   return uri.empty();
 }
 
-/// What is written in place of a part of the text.
+/// A text that takes the place of a part of the file.
 struct Replacement {
   std::size_t begin = 0, end = 0;
   std::string text;
@@ -41,13 +43,7 @@ class GmlExtensions {
         parser_,
         [](void* self, const char* name, const char**) { static_cast<GmlExtensions*>(self)->start(name); },
         [](void* self, const char*) { static_cast<GmlExtensions*>(self)->finish(); });
-    constexpr std::size_t piece = 1 << 20;
-    for (std::size_t at = 0; at < xml_.size(); at += piece) {
-      const std::size_t length = std::min(piece, xml_.size() - at);
-      if (XML_Parse(parser_, xml_.data() + at, int(length), at + length == xml_.size()) != XML_STATUS_OK)
-        return false;
-    }
-    return true;
+    return parse_in_pieces(parser_, xml_);
   }
 
   const FileAccount& account() const { return account_; }

@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "formats/city_models/xml_pieces.h"
+
 namespace parvis::scene {
 namespace {
 
@@ -56,13 +58,7 @@ class GmlGeometry {
       GmlGeometry& geometry = *static_cast<GmlGeometry*>(self);
       if (geometry.takes_text_) geometry.text_.append(text, std::size_t(length));
     });
-    constexpr std::size_t piece = 1 << 20;
-    for (std::size_t at = 0; at < xml_.size(); at += piece) {
-      const std::size_t length = std::min(piece, xml_.size() - at);
-      if (XML_Parse(parser_, xml_.data() + at, int(length), at + length == xml_.size()) != XML_STATUS_OK)
-        return false;
-    }
-    return true;
+    return parse_in_pieces(parser_, xml_);
   }
 
   std::string written() const {

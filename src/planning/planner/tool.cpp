@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "graphics/reference/camera_ray.h"
 #include "life/vegetation/plant_drawable.h"
@@ -156,6 +155,11 @@ glm::dvec3 Tool::snap_point(const Pointer& pointer, glm::dvec3 at, const Names& 
   return {snapped_.at, at.z};
 }
 
+/// Where the first object that is selected stands.
+glm::dvec3 Tool::first_foot() const {
+  return design::placed_object(scene_, *live_.find(session_.selected().front()), "").position;
+}
+
 design::Command Tool::move_by(glm::dvec2 by) const {
   const Names& names = session_.selected();
   if (copies_) return design::Duplicate{names, glm::dvec3(by, 0.0)};
@@ -262,6 +266,7 @@ void Tool::point(const Pointer& pointer) {
   if (is_pressed_ && action_ == Action::none && mode_ == Mode::select && !session_.selected().empty() &&
       glm::distance(pointer.pixel, pressed_.pixel) > drag_px) {
     action_ = Action::move;
+    anchor_ = first_foot();
     grabbed_ = pressed_place_.value_or(glm::dvec3(0.0));
   }
   if (action_ == Action::box) return;
@@ -294,16 +299,12 @@ bool Tool::press(const Pointer& pointer) {
     session_.select(names);
     return is_pressed_ = true;
   }
-  if (!is_selected) session_.select({pointed_});
+  if (is_selected) return is_pressed_ = true;
+  names = {pointed_};
   const std::string group = live_.find(pointed_)->text("group");
-  if (!is_selected && !group.empty())
-    for (const PlacedObject& object : session_.objects())
-      if (object.group == group && object.name != pointed_) {
-        names = session_.selected();
-        names.push_back(object.name);
-        session_.select(names);
-      }
-  anchor_ = design::placed_object(scene_, *live_.find(session_.selected().front()), "").position;
+  for (const PlacedObject& object : session_.objects())
+    if (!group.empty() && object.group == group && object.name != pointed_) names.push_back(object.name);
+  session_.select(names);
   return is_pressed_ = true;
 }
 
@@ -396,8 +397,7 @@ bool Tool::cancel() {
 Status Tool::begin(Action action) {
   if (session_.selected().empty()) return error("nothing is selected: click an object first");
   give_up();
-  const scene::Node* first = live_.find(session_.selected().front());
-  anchor_ = design::placed_object(scene_, *first, "").position;
+  anchor_ = first_foot();
   action_ = action;
   follows_click_ = true;
   grabbed_ = on_level(pointer_, anchor_.z).value_or(anchor_ + glm::dvec3(0.0, 1.0, 0.0));
@@ -423,7 +423,7 @@ Status Tool::nudge(const Camera& camera, double right_m, double ahead_m) {
                               ? glm::dvec2(ahead.x > 0.0f ? 1.0 : -1.0, 0.0)
                               : glm::dvec2(0.0, ahead.y > 0.0f ? 1.0 : -1.0);
   const glm::dvec2 right(axis.y, -axis.x);
-  anchor_ = design::placed_object(scene_, *live_.find(session_.selected().front()), "").position;
+  anchor_ = first_foot();
   copies_ = false;
   return session_.run(move_by(rounded(right_m * right + ahead_m * axis)));
 }

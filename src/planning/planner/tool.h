@@ -124,6 +124,7 @@ class Tool {
                         const std::optional<glm::dvec2>& origin);
   void show(const std::optional<design::Command>& command);
   std::optional<design::Command> command_now() const;
+  glm::dvec3 first_foot() const;
   design::Command move_by(glm::dvec2 by) const;
   void point_for_insertion(const Pointer& pointer);
   void point_for_action(const Pointer& pointer);

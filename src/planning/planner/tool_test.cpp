@@ -157,6 +157,35 @@ TEST_F(ToolTest, ADragMovesByTheWayFromWhereItTookHold) {
   expect_near("b", {1, 1}, 1e-6);
 }
 
+TEST_F(ToolTest, WhatIsLeftAfterShiftIsDraggedFromWhereItStands) {
+  place(
+      "design(name=a) { placed(kind=bench_stone, name=b, position=\"1 1 0\")"
+      " placed(kind=bench_stone, name=c, position=\"-4 1 0\") }");
+  click(at({1, 1, 0.45}));
+  Pointer other = at({-4, 1, 0.45});
+  other.adds = true;
+  click(other);
+  other = at({1, 1, 0.45});
+  other.adds = true;
+  tool_->press(other);  // takes b out of the selection
+  Pointer to = at({2, 1, 0.45});
+  to.is_free = true;
+  tool_->point(to);
+  EXPECT_TRUE(tool_->release(to));
+  expect_near("c", {-3, 1}, 0.03);
+  expect_near("b", {1, 1}, 1e-9);
+}
+
+TEST_F(ToolTest, AGroupIsSelectedTogether) {
+  place(
+      "design(name=a) { placed(kind=table, name=b, position=\"1 1 0\", group=g)"
+      " placed(kind=table, name=c, position=\"-4 1 0\", group=g) placed(kind=table, name=d, position=\"4 1 "
+      "0\") "
+      "}");
+  click(at({1, 1, 0.5}));
+  EXPECT_EQ(session_->selected(), (design::Names{"b", "c"}));
+}
+
 TEST_F(ToolTest, AClickWithoutWayMovesNothing) {
   place("design(name=a) { placed(kind=bench_stone, name=b, position=\"1 1 0\") }");
   click(at({1, 1, 0.45}));
