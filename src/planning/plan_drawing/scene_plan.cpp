@@ -103,13 +103,22 @@ PlanTree tree_of(const Bounds& box, glm::vec3 foot, const glm::mat4& world_from_
   return tree;
 }
 
+/// Does the plant belong to an object of a design, which the plan shows as such?
+bool grows_on_placed(const vegetation::ScenePlant& plant, const ScenePlan& plan) {
+  constexpr double same_foot_m = 0.01;
+  const glm::dvec2 foot{glm::vec2(plant.world_from_plant[3])};
+  return std::ranges::any_of(plan.placed, [&](const design::PlacedObject& object) {
+    return glm::distance(glm::dvec2(object.position), foot) < same_foot_m;
+  });
+}
+
 void add_plants(const scene::Scene& scene, ScenePlan& plan) {
   for (const trees::SceneTree& tree : trees::scene_trees(scene))
     if (tree.is_visible)
       plan.trees.push_back(tree_of(tree.tree->box, tree.tree->foot, tree.world_from_tree,
                                    fmt::format("tree {}", plan.trees.size() + 1)));
   for (const vegetation::ScenePlant& plant : vegetation::scene_plants(scene)) {
-    if (!plant.is_visible) continue;
+    if (!plant.is_visible || grows_on_placed(plant, plan)) continue;
     const vegetation::PlantShape& shape = *plant.shape;
     if (shape.kind().habit == vegetation::Habit::tree) {
       plan.trees.push_back(

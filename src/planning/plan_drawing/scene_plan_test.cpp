@@ -9,6 +9,7 @@
 #include "base/test_data.h"
 #include "base/test_folder.h"
 #include "formats/drawings/drawing_reader.h"
+#include "life/vegetation/scene_plant.h"
 #include "planning/plan_drawing/plan_files.h"
 #include "planning/plan_drawing/plan_lines.h"
 #include "scene/data/test_scene.h"
@@ -76,6 +77,27 @@ TEST(ScenePlan, ObjectsOfDesignsTakeThePlaceOfThoseOfTheScene) {
   EXPECT_FALSE(line_of(plan, PlanLayer::thing)) << "it is drawn once, as an object";
   EXPECT_EQ(plan.placed.size(), 1u);
   EXPECT_EQ(plan.middle(), glm::dvec2(3, -4));
+}
+
+TEST(ScenePlan, ATreeOfADesignIsOneTree) {
+  vegetation::PlantRecipe recipe;
+  recipe.kind = vegetation::find_kind("orange");
+  recipe.height_m = 3.0f;
+  scene::Scene scene = small_place();
+  auto shape = vegetation::shared_plant(scene.data<vegetation::PlantShelf>(), recipe);
+  ASSERT_TRUE(shape) << to_string(shape.errors());
+  for (const float x : {2.0f, 9.0f}) {
+    vegetation::ScenePlant plant;
+    plant.shape = *shape;
+    plant.world_from_plant[3] = {x, 3, 0, 1};
+    scene.data<vegetation::ScenePlants>().add(plant, -1);
+  }
+  design::PlacedObject placed;
+  placed.name = "orange_1", placed.kind = "tree_orange", placed.position = {2, 3, 0};
+  const ScenePlan plan = plan_of(scene, {placed});
+  ASSERT_EQ(plan.trees.size(), 1u) << "the one that no design has";
+  EXPECT_NEAR(plan.trees.front().position.x, 9.0, 1e-6);
+  EXPECT_EQ(plan_of(scene, {}).trees.size(), 2u);
 }
 
 TEST(PlanLines, RingsAndOpenLinesOfSegmentsInAnyOrder) {
