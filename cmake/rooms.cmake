@@ -130,7 +130,8 @@ set(CMAKE_INSTALL_RPATH $ORIGIN/../lib/parvis)
 
 # parvis_module(NAME LIBRARIES target... [SOURCES file...]), before the parvis_room of its folder: NAME_module.cpp and the
 # further sources and libraries become the module NAME (base/module.h), a shared object with a copy of what it uses of
-# rooms, and are no part of the room's own library. Programs that link the room find the module built.
+# rooms, and are no part of the room's own library. Programs that link the room find the module built. The presets link
+# modules with the system's linker: mold 1.10 takes every object of the rooms' archives into them, needed or not.
 function(parvis_module name)
   cmake_parse_arguments(MODULE "" "" "SOURCES;LIBRARIES" ${ARGN})
   set(sources ${name}_module.cpp ${MODULE_SOURCES})

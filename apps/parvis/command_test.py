@@ -822,6 +822,99 @@ class Plans(InAFolder):
         self.assertIn("unit=", without_unit.stderr)
 
 
+TEN_LINES = """# two places to look from
+sun(azimuth_deg=140, elevation_deg=40)
+camera(name="street", position="0 -9 2", target="0 0 1")
+group(name="hill", position="0 40 8") {
+  camera(name="top", position="0 0 1.6")
+}
+scenario(name="turned", title="The hill, turned") {
+  override(of="hill", heading_deg=90)
+}
+# the end
+"""
+
+QUAD = """mtllib quad.mtl
+o wall
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+usemtl brick
+f 1 2 3 4
+"""
+
+
+class Libraries(InAFolder):
+    """Which libraries a command maps, and what it says where one is missing."""
+
+    MAX_MAPPED = 40
+    READERS = ("OpenImageIO", "assimp", "gdal", "Coin", "IfcPlusPlus", "citygml", "xerces", "tiff", "jpeg", "png")
+
+    def mapped(self, *arguments):
+        """Names of the libraries that the command maps: in the program itself, by the loader's own list, and in all of its
+        processes, whose maps are read again and again while it runs."""
+        log = self.folder / "mapped"
+        everywhere = set()
+        with open(self.folder / "said", "w+") as said:
+            process = subprocess.Popen(
+                [PARVIS, *map(str, arguments)], stdout=said, stderr=said, start_new_session=True,
+                env={**os.environ, "LD_DEBUG": "files", "LD_DEBUG_OUTPUT": str(log)})
+            while process.poll() is None:
+                for child in filter(str.isdigit, os.listdir("/proc")):
+                    try:
+                        if os.getsid(int(child)) == process.pid:
+                            maps = pathlib.Path("/proc", child, "maps").read_text()
+                            everywhere.update(re.findall(r"/([^/ ]+)\.so[.\w]*$", maps, re.MULTILINE))
+                    except OSError:  # it has ended
+                        pass
+                time.sleep(0.005)
+            said.seek(0)
+            self.assertEqual(process.returncode, 0, said.read())
+        (file,) = self.folder.glob("mapped.*")
+        program = set(re.findall(r"file=(\S+) \[\d+\];  generating link map", file.read_text(errors="replace")))
+        file.unlink()
+        program = {pathlib.PurePath(name).name.split(".so")[0] for name in program}
+        return program, program | everywhere - {"ld-linux-x86-64"}
+
+    def test_commands_that_read_no_model_map_few(self):
+        scene = self.write("ten.xp", TEN_LINES)
+        for arguments in (["--version"], ["--help"], ["check", scene], ["format", scene]):
+            _, everywhere = self.mapped(*arguments)
+            self.assertIn("libstdc++", everywhere)
+            self.assertLessEqual(len(everywhere), self.MAX_MAPPED, sorted(everywhere))
+
+    def test_readers_stay_out_of_the_program(self):
+        self.write("quad.obj", QUAD)
+        self.write("quad.mtl", "newmtl brick\nKd 1 1 1\nmap_Kd brick.png\n")
+        rows = zlib.compress(b"".join(b"\0" + bytes([200, 90, 60] * 4) for _ in range(4)))
+        chunks = [(b"IHDR", struct.pack(">2I5B", 4, 4, 8, 2, 0, 0, 0)), (b"IDAT", rows), (b"IEND", b"")]
+        self.write("brick.png", b"\x89PNG\r\n\x1a\n" + b"".join(
+            struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks))
+        # Several, so that the process that has the modules is there for a while.
+        pavilions = [f"pavilion_{number}.ifc" for number in range(8)]
+        for name in pavilions:
+            shutil.copy(pathlib.Path(__file__).resolve().parents[2] / "scenes" / "pavilion.ifc", self.folder / name)
+        scene = self.write("scene.xp", "".join(f'model(file="{name}")\n' for name in ["quad.obj", *pavilions]))
+        program, everywhere = self.mapped("check", scene)
+        for reader in ("assimp", "OpenImageIO", "IfcPlusPlus"):
+            self.assertTrue(any(reader in name for name in everywhere), reader)
+        self.assertGreater(len(everywhere), self.MAX_MAPPED, "the control of the test above")
+        found = [name for name in program if any(reader in name for reader in self.READERS)]
+        self.assertEqual(found, [], "libraries that read strangers' bytes, in the program")
+
+    def test_a_missing_module_is_an_error(self):
+        self.write("quad.obj", QUAD)
+        scene = self.write("scene.xp", 'sun()\nmodel(file="quad.obj")\n')
+        base = self.folder / "libraries"
+        base.mkdir()
+        shutil.copy(pathlib.Path(PARVIS).resolve().parents[2] / "lib" / "libparvis_base.so", base)
+        alone = {"LD_LIBRARY_PATH": str(base)}  # modules lie beside it
+        self.expect_failure("check", scene, words=["parvis_assimp.so", "cannot open"], environment=alone)
+        self.write("scene.xp", TEN_LINES)
+        self.assertEqual(run("check", scene, environment=alone).returncode, 0)
+
+
 class BadModels(InAFolder):
     def test_damaged_glb(self):
         whole = glb(*triangle())

@@ -105,6 +105,7 @@ Result<CityCoordinates> CityCoordinates::find(const CoordinateClues& clues, cons
                                               Errors& warnings, const std::string& map) {
   CityCoordinates found;
   if (!(clues.low.x <= clues.high.x)) return found;
+  if (const Status known = projections_known(); !known) return known.errors();
   const FileLocation where{file.string(), 0, 0};
   const std::string name = shortened(clues.system);
   const glm::dvec2 size = clues.high - clues.low, middle = 0.5 * glm::dvec2(clues.low + clues.high);

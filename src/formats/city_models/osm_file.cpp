@@ -15,6 +15,7 @@
 #include "formats/city_models/xml_guard.h"
 #include "formats/readers/packed_file.h"
 #include "formats/terrain/map_projection.h"
+#include "formats/terrain/map_system.h"
 
 namespace parvis::scene {
 namespace {
@@ -192,6 +193,7 @@ const std::string& tag(const OsmTags& tags, const std::string& key) {
 }
 
 Result<OsmFile> read_osm_file(const std::filesystem::path& file, Errors& warnings, const std::string& map) {
+  if (const Status known = projections_known(); !known) return known.errors();
   const FileLocation where{file.string(), 0, 0};
   const bool is_xml = formats::model_extension(file) != ".pbf";
   Deleted deleted;

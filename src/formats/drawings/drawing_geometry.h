@@ -1,4 +1,4 @@
-// The geometry of a drawing through GDAL's DXF driver, the only file that knows it.
+// The geometry of a drawing through GDAL's DXF driver.
 #pragma once
 
 #include <string>

@@ -166,8 +166,8 @@ std::optional<std::int64_t> reference_in(std::string_view attributes) {
 /// A number as STEP writes it: with a point.
 std::string step_number(double value) {
   std::string text = fmt::format("{:.12g}", value);
-  if (const std::size_t exponent = text.find('e'); text.find('.') == std::string::npos)
-    text.insert(exponent == std::string::npos ? text.size() : exponent, ".");
+  if (const std::size_t exponent = std::min(text.find('e'), text.size()); text.find('.') == std::string::npos)
+    text = fmt::format("{}.{}", text.substr(0, exponent), text.substr(exponent));
   std::ranges::replace(text, 'e', 'E');
   return text;
 }

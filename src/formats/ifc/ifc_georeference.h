@@ -1,5 +1,5 @@
-// Where on the earth and on a map an IFC file says that its building stands. Knows IFC++, as ifc_shapes.cpp
-// does.
+// Where on the earth and on a map an IFC file says that its building stands. A part of the module
+// ifcplusplus.
 #pragma once
 
 #include <glm/glm.hpp>

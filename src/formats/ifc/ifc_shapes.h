@@ -1,5 +1,5 @@
-// The bodies of an IFC file, as IFC++ builds them: all that is known of that library stands in
-// ifc_shapes.cpp, ifc_styles, ifc_textures and ifc_georeference.
+// The bodies of an IFC file, as IFC++ builds them: all that is known of that library stands in its module
+// (ifcplusplus_module, ifc_styles, ifc_sweeps, ifc_textures, ifc_georeference, ifc_text).
 #pragma once
 
 #include <glm/glm.hpp>

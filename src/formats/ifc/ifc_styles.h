@@ -1,5 +1,5 @@
-// Surface styles of an IFC file: what names them, and those of the materials that objects are made of. Knows
-// IFC++, as ifc_shapes.cpp does.
+// Surface styles of an IFC file: what names them, and those of the materials that objects are made of. A part
+// of the module ifcplusplus.
 #pragma once
 
 #include <vector>

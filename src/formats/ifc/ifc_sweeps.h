@@ -1,5 +1,5 @@
-// Swept bodies that IFC++ builds wrongly or not at all, as bodies of plane faces. Knows IFC++, as
-// ifc_shapes.cpp does.
+// Swept bodies that IFC++ builds wrongly or not at all, as bodies of plane faces. A part of the
+// module ifcplusplus.
 #pragma once
 
 #include <functional>

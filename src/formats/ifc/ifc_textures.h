@@ -1,5 +1,5 @@
-// Pictures of an IFC file's surface styles, and where they lie on bodies. Knows IFC++, as ifc_shapes.cpp
-// does.
+// Pictures of an IFC file's surface styles, and where they lie on bodies. A part of the module
+// ifcplusplus.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Grids of heights (GeoTIFF) through GDAL, the only file that knows it.
+// Grids of heights (GeoTIFF) through GDAL.
 #pragma once
 
 #include <filesystem>

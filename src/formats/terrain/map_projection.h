@@ -8,6 +8,8 @@
 
 namespace parvis::scene {
 
+class ProjectedMap;
+
 /// As far as UTM goes, north and south.
 inline constexpr double max_latitude_deg = 84.0;
 
@@ -15,7 +17,8 @@ inline constexpr double max_latitude_deg = 84.0;
 class MapProjection {
  public:
   /// The zone of the universal transverse Mercator projection for a place (degrees: east, north): within it
-  /// scale is within 0.04 %, and north within 3 degrees of the meridian.
+  /// scale is within 0.04 %, and north within 3 degrees of the meridian. Where PROJ cannot be loaded
+  /// (projections_known) no place is on it.
   static MapProjection utm(glm::dvec2 place_deg);
   /// The system of a name ("EPSG:25832") or description (WKT) that PROJ reads. Nothing where it knows none
   /// that is projected.
@@ -31,12 +34,11 @@ class MapProjection {
   double true_north_deg(glm::dvec2 place_deg) const;
 
  private:
-  struct Projection;
-  MapProjection(std::string system, std::shared_ptr<const Projection> projection)
-      : system_(std::move(system)), projection_(std::move(projection)) {}
+  MapProjection(std::string system, std::shared_ptr<const ProjectedMap> map)
+      : system_(std::move(system)), map_(std::move(map)) {}
 
   std::string system_;
-  std::shared_ptr<const Projection> projection_;
+  std::shared_ptr<const ProjectedMap> map_;  ///< null where PROJ cannot be loaded
 };
 
 }  // namespace parvis::scene

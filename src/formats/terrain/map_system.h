@@ -7,7 +7,12 @@
 #include <string>
 #include <string_view>
 
+#include "base/result.h"
+
 namespace parvis::scene {
+
+/// An error where PROJ cannot be loaded: to be asked before anything is laid on a map.
+Status projections_known();
 
 /// What a system's coordinates are; its heights, if any, come third.
 struct MapSystem {

@@ -10,6 +10,7 @@
 #include "planning/plan_drawing/placed_blocks.h"
 #include "planning/plan_drawing/placed_drawing.h"
 #include "planning/plan_drawing/plan_nodes.h"
+#include "planning/plan_drawing/text_outlines.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
@@ -106,6 +107,8 @@ void build(const scene::Node& node, scene::SceneBuilder& builder, KnownDrawings&
   PlacedDrawing placed;
   placed.drawing = known.read(node, builder);
   if (!placed.drawing) return;
+  if (const Status letters = placed.drawing->texts.empty() ? Status(Done{}) : letters_known(); !letters)
+    return builder.fail(letters.errors(), node.where_of("file"));
   const Result<std::vector<bool>> shown =
       shown_layers(*placed.drawing, node.gives("layers") ? node.text("layers") : "");
   if (!shown) return builder.fail(shown.errors(), node.where_of("layers"));
