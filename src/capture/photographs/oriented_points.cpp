@@ -32,7 +32,7 @@ OrientedPoint with_normal(const std::vector<glm::dvec3>& points, std::size_t i) 
   for (const auto& [squared, j] : nearest) mean += points[j] / double(nearest.size());
   glm::dmat3 spread(0.0);
   for (const auto& [squared, j] : nearest) spread += glm::outerProduct(points[j] - mean, points[j] - mean);
-  const Eigen eigen = eigen_of(spread);
+  const Eigensystem eigen = eigen_of(spread);
   const double first = std::max(eigen.values[0], 0.0), second = eigen.values[1];
   const bool is_a_line = !(second > 1e-3 * eigen.values[2]);  // of which any direction beside it is normal
   return {points[i], eigen.vectors[0], is_a_line ? 0.0 : 1.0 - std::sqrt(first / second), 1};
@@ -55,7 +55,7 @@ glm::dvec3 towards_cameras(const SparsePoint& point, const PhotographSet& set) {
 
 }  // namespace
 
-Eigen eigen_of(glm::dmat3 m) {
+Eigensystem eigen_of(glm::dmat3 m) {
   glm::dmat3 vectors(1.0);
   for (int sweep = 0; sweep < 12; ++sweep)
     for (int p = 0; p < 2; ++p)
@@ -73,7 +73,7 @@ Eigen eigen_of(glm::dmat3 m) {
       }
   std::array<int, 3> order{0, 1, 2};
   std::ranges::sort(order, {}, [&](int i) { return m[i][i]; });
-  Eigen result;
+  Eigensystem result;
   for (int i = 0; i < 3; ++i) {
     result.values[i] = m[order[std::size_t(i)]][order[std::size_t(i)]];
     result.vectors[i] = vectors[order[std::size_t(i)]];

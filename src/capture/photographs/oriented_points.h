@@ -10,12 +10,12 @@
 namespace parvis::photographs {
 
 /// Eigenvalues (rising) and unit eigenvectors of a symmetric matrix, by Jacobi's rotations.
-struct Eigen {
+struct Eigensystem {
   glm::dvec3 values;
   glm::dmat3 vectors;  ///< columns, in the order of the values
 };
 /// Of a symmetric matrix with finite entries.
-Eigen eigen_of(glm::dmat3 m);
+Eigensystem eigen_of(glm::dmat3 m);
 
 /// A point with the plane of its neighbours.
 struct OrientedPoint {

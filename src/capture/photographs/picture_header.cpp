@@ -61,6 +61,20 @@ class Tiff {
     }
     return 0.0;
   }
+  /// The ASCII text of `tag`, without the zero at its end; empty where there is none.
+  std::string text(std::size_t directory, std::uint32_t tag) const {
+    const std::size_t count = number(directory, 2);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t entry = directory + 2 + 12 * i;
+      if (number(entry, 2) != tag || number(entry + 2, 2) != 2) continue;
+      const std::size_t length = number(entry + 4, 4);
+      const std::size_t at = length > 4 ? number(entry + 8, 4) : entry + 8;
+      if (at >= bytes_.size()) return "";
+      const std::string_view held = bytes_.substr(at, length);
+      return std::string(held.substr(0, held.find('\0')));
+    }
+    return "";
+  }
 
  private:
   std::string_view bytes_;
@@ -78,6 +92,7 @@ void read_exif(std::string_view segment, PictureHeader& header) {
   if (camera == 0) return;
   header.focal_length_mm = tiff.value(camera, 0x920a);
   header.focal_length_35mm_mm = tiff.value(camera, 0xa405);
+  header.taken = tiff.text(camera, 0x9003);
 }
 
 /// Nothing where the bytes end before the frame's size.

@@ -16,6 +16,7 @@ struct PictureHeader {
       1;  ///< EXIF: 1 as stored, 3 upside down, 6 and 8 turned by a quarter; 2, 4, 5, 7 mirrored
   double focal_length_mm = 0.0;       ///< EXIF; 0: not given
   double focal_length_35mm_mm = 0.0;  ///< EXIF: as on film 36 mm wide; 0: not given
+  std::string taken;  ///< EXIF, by the camera's clock: "2026:06:21 14:15:00"; empty: not given
 };
 
 /// Of a JPEG (ITU-T T.81, annex B; EXIF: CIPA DC-008) or PNG. Errors name the file: neither of them, damaged.

@@ -1,0 +1,143 @@
+#include "capture/photographs/clicked_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/random.h"
+#include "base/test_data.h"
+#include "capture/photographs/camera_files.h"
+
+namespace parvis::photographs {
+namespace {
+
+Photograph taken_from(glm::vec3 eye, glm::vec3 target, double fov = 0.8) {
+  Photograph photograph = photograph_of({.world_from_camera = look_at(eye, target)}, "corner", 1600, 1200);
+  photograph.lens = centred_lens(1600, 1200, fov);
+  return photograph;
+}
+
+std::vector<ClickedPoint> clicked(const Photograph& photograph, const std::vector<glm::dvec3>& places) {
+  std::vector<ClickedPoint> points;
+  for (const glm::dvec3& place : places) points.push_back({*pixel_of_world(photograph, place), place});
+  return points;
+}
+
+const std::vector<glm::dvec3> corners{{0, 0, 0}, {8, 0, 0}, {8, 6, 0}, {0, 6, 0}, {0, 6, 4}, {8, 6, 7}};
+
+TEST(ClickedCamera, IsTheOneThatTookThePicture) {
+  const Photograph truth = taken_from({3, -14, 1.7f}, {4, 3, 2});
+  const Result<ClickedCamera> found = camera_of_points(clicked(truth, corners), 1600, 1200);
+  ASSERT_TRUE(found) << to_string(found.errors());
+  EXPECT_LT(glm::distance(found->photograph.position_in_world(), truth.position_in_world()), 0.01);
+  EXPECT_NEAR(focal_px(found->photograph.lens).x, focal_px(truth.lens).x, 1.0);
+  const glm::dvec3 elsewhere(2, 2, 3);
+  EXPECT_LT(glm::distance(*pixel_of_world(found->photograph, elsewhere), *pixel_of_world(truth, elsewhere)),
+            0.1);
+}
+
+TEST(ClickedCamera, IsFoundFromThePavingAlone) {
+  const Photograph truth = taken_from({3, -9, 4.5f}, {4, 3, 0});
+  const std::vector<glm::dvec3> paving{{0, 0, 0}, {8, 0, 0}, {8, 6, 0}, {0, 6, 0}, {3, 2, 0}, {6, 9, 0}};
+  const Result<ClickedCamera> found = camera_of_points(clicked(truth, paving), 1600, 1200);
+  ASSERT_TRUE(found) << to_string(found.errors());
+  EXPECT_LT(glm::distance(found->photograph.position_in_world(), truth.position_in_world()), 0.05);
+}
+
+TEST(ClickedCamera, TakesMapCoordinatesAsTheyAre) {
+  const Photograph truth = taken_from({3, -14, 1.7f}, {4, 3, 2});
+  std::vector<ClickedPoint> points = clicked(truth, corners);
+  const glm::dvec3 on_map(1'044'000.0, 6'298'000.0, 12.0);
+  for (ClickedPoint& each : points) each.position_in_world += on_map;
+  const Result<ClickedCamera> found = camera_of_points(points, 1600, 1200);
+  ASSERT_TRUE(found) << to_string(found.errors());
+  EXPECT_LT(glm::distance(found->photograph.position_in_world(), truth.position_in_world() + on_map), 0.01);
+}
+
+TEST(ClickedCamera, NamesTheClickOfAnotherPoint) {
+  std::vector<ClickedPoint> points = clicked(taken_from({3, -14, 1.7f}, {4, 3, 2}), corners);
+  points.push_back({{1500, 100}, {2, 0, 0}});
+  const Result<ClickedCamera> found = camera_of_points(points, 1600, 1200);
+  ASSERT_FALSE(found);
+  EXPECT_NE(found.errors().front().message.find("no camera explains the points"), std::string::npos);
+}
+
+TEST(ClickedCamera, IsNotMadeUpFromTooLittle) {
+  const Photograph truth = taken_from({3, -14, 1.7f}, {4, 3, 2});
+  EXPECT_FALSE(camera_of_points(clicked(truth, {{0, 0, 0}, {8, 0, 0}, {8, 6, 0}}), 1600, 1200));
+  const std::vector<glm::dvec3> line{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {5, 0, 0}};
+  const Result<ClickedCamera> found = camera_of_points(clicked(truth, line), 1600, 1200);
+  ASSERT_FALSE(found);
+  EXPECT_NE(found.errors().front().message.find("on one line"), std::string::npos);
+}
+
+TEST(ClickedCamera, ReadsPointsWithTheirLines) {
+  const auto points =
+      parse_clicked_points("# corners\n10 20 1.5 -2 0\n\n 11.5, 21 = 3, 4, 5 # door\n", "p.txt");
+  ASSERT_TRUE(points);
+  ASSERT_EQ(points->size(), 2u);
+  EXPECT_EQ((*points)[1].pixel, glm::dvec2(11.5, 21));
+  EXPECT_EQ((*points)[1].position_in_world, glm::dvec3(3, 4, 5));
+  for (const char* bad : {"1 2 3 4\n", "1 2 3 4 5 6\n", "1 2 x 4 5\n", "1 2 3 4 nan\n", "1 2 3 4 1e30\n"}) {
+    const auto refused = parse_clicked_points(bad, "p.txt");
+    ASSERT_FALSE(refused) << bad;
+    EXPECT_EQ(refused.errors().front().where.line, 1);
+  }
+}
+
+/// How far, root mean square over the points of the place in the picture, the camera of six well-spread
+/// clicks puts them from where the photograph's own camera does. A click is off by half a pixel (standard
+/// deviation).
+double check_points_px(const PhotographSet& set, int photograph) {
+  const Photograph& truth = set.photographs[std::size_t(photograph)];
+  std::vector<ClickedPoint> seen;
+  for (const SparsePoint& point : set.points)
+    if (const auto at = pixel_of_world(truth, point.position_in_world); at && is_inside(truth.lens, *at))
+      seen.push_back({*at, point.position_in_world});
+  if (seen.size() < 100) return 1e9;
+  // Farthest first in the picture and in depth, as a person takes corners near and far.
+  const auto features = [&](const ClickedPoint& each) {
+    return glm::dvec3(each.pixel / double(truth.lens.width),
+                      0.3 * std::log(distance_along_axis(truth, each.position_in_world)));
+  };
+  std::vector<ClickedPoint> chosen{seen.front()};
+  while (chosen.size() < min_clicked_points) {
+    const auto nearest = [&](const ClickedPoint& each) {
+      double least = 1e9;
+      for (const ClickedPoint& other : chosen)
+        least = std::min(least, glm::distance(features(each), features(other)));
+      return least;
+    };
+    chosen.push_back(*std::ranges::max_element(seen, {}, nearest));
+  }
+  Random random(7, std::uint64_t(photograph));
+  for (ClickedPoint& each : chosen)
+    for (int axis = 0; axis < 2; ++axis)  // nearly normal: the sum of twelve has a variance of 1
+      for (int i = 0; i < 12; ++i) each.pixel[axis] += 0.5 * (double(random.uniform()) - 0.5);
+  const Result<ClickedCamera> found = camera_of_points(chosen, truth.lens.width, truth.lens.height);
+  if (!found) return 1e9;
+  double squares = 0.0;
+  for (const ClickedPoint& each : seen) {
+    const glm::dvec2 off = *pixel_of_world(found->photograph, each.position_in_world) - each.pixel;
+    squares += glm::dot(off, off) / double(seen.size());
+  }
+  return std::sqrt(squares);
+}
+
+TEST(ClickedCamera, OfSixPointsFitsTheCourtyard) {
+  const std::optional<std::filesystem::path> folder = shared_data("photos_castle_p30");
+  if (!folder) GTEST_SKIP() << "photos_castle_p30 is absent";
+  const Result<LoadedSet> loaded = read_cameras(*folder / "colmap", *folder / "images");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < loaded->set.photographs.size(); ++i)
+    errors.push_back(check_points_px(loaded->set, int(i)));
+  std::ranges::sort(errors);
+  std::string all;
+  for (const double each : errors) all += fmt::format("{:.2f} ", each);
+  fmt::print("check points of photographs, px: {}\n", all);
+  EXPECT_LT(errors[errors.size() / 2], 1.0);
+}
+
+}  // namespace
+}  // namespace parvis::photographs
