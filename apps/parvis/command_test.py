@@ -981,6 +981,59 @@ class BadModels(InAFolder):
             self.expect_bad_model(name, text, name + ":2:", "DOCTYPE", is_rendered=True)
 
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def second_readers(test, *words):
+    """The figures of script/second_readers, and what it prints; skips where its libraries cannot be had."""
+    out = test.folder / "second.json"
+    done = subprocess.run([ROOT / "script" / "second_readers", PARVIS, "--json", out, *words],
+                          cwd=ROOT, capture_output=True, text=True, timeout=1500)
+    if done.returncode == 77:
+        test.skipTest(done.stdout.strip())
+    return json.loads(out.read_text())["figures"], done.stdout
+
+
+class Files(InAFolder):
+    """What is read of model files, beside other readers of the same files."""
+
+    FILES = ["scenes/canal.osm", "scenes/court/bench.obj", "scenes/court/relief_front.wrl", "scenes/bare_saloon.glb",
+             "src/formats/ifc/fuzz/corpus/ifc/wall.ifc", "src/formats/gltf/fuzz/corpus/gltf/instanced.glb",
+             "src/formats/city_models/fuzz/corpus/city_json/solid.city.json"]
+
+    def test_other_readers_find_the_same_objects(self):
+        figures, printed = second_readers(self, *self.FILES)
+        self.assertEqual(figures["files"], len(self.FILES), printed)
+        self.assertEqual(figures["agree"] + figures["explained"], figures["objects"], printed)
+        self.assertEqual((figures["silent"], figures["without_account"]), (0, 0), printed)
+
+    def test_what_is_lost_or_stretched_is_found(self):
+        figures, printed = second_readers(self, "--control", "loss", *self.FILES[:4])
+        self.assertGreater(figures["silent"], 50, printed)
+        self.assertEqual(figures["without_account"], 4, printed)
+        figures, printed = second_readers(self, "--control", "size", *self.FILES[1:4])
+        self.assertEqual(figures["agree"], 0, printed)
+
+
+class AllFiles(InAFolder):
+    """Every valid file of the project, and the inputs after reports of other programs' users."""
+
+    def test_other_readers_find_the_same_objects(self):
+        endings = (".osm", ".obj", ".wrl", ".glb", ".ifc", ".gml", ".json")
+        files = [path for folder in ("scenes", "src/formats") for path in (ROOT / folder).rglob("*") if path.suffix in endings]
+        figures, printed = second_readers(self, *sorted(files))
+        self.assertEqual(figures["agree"] + figures["explained"], figures["objects"], printed)
+        self.assertEqual((figures["silent"], figures["without_account"]), (0, 0), printed)
+
+    def test_reports_of_others_come_out_right(self):
+        reports = ROOT.parent / "shared" / "data" / "reports"
+        if not reports.is_dir():
+            self.skipTest("skipped: shared data absent")
+        done = subprocess.run([ROOT / "apps/bench/files/judge_reports.py", PARVIS, reports],
+                              capture_output=True, text=True, timeout=1500)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+
 class Hostile(InAFolder):
     """A few of script/attack's classes, each of which once crashed, escaped or wrapped."""
 
