@@ -82,6 +82,18 @@ const std::map<std::string, trees::TextureMethod> texture_methods{
     {"naive", trees::TextureMethod::naive},
     {"random_texels", trees::TextureMethod::random_texels}};
 
+/// An option of which the values have names. (CLI11's own transformation prints numbers as bytes in its
+/// help.)
+template <class Value>
+void add_choice(CLI::App& command, const char* option, Value& value,
+                const std::map<std::string, Value>& values, const char* help) {
+  std::vector<std::string> names;
+  for (const auto& [name, ignored] : values) names.push_back(name);
+  const auto choose = [&value, &values](const std::string& name) { value = values.at(name); };
+  command.add_option_function<std::string>(option, choose, help)
+      ->check(CLI::IsMember(names, CLI::ignore_case));
+}
+
 Status synthesize(SynthesizeArguments arguments) {
   if (Status status = parse_size(arguments.size, arguments.capture.width, arguments.capture.height); !status)
     return status;
@@ -120,8 +132,10 @@ Status synthesize(SynthesizeArguments arguments) {
 Status mattes(const trees::MatteFolder& folder) {
   const Result<trees::MatteCounts> counts = trees::write_mattes(folder);
   if (!counts) return counts.errors();
-  fmt::print("{}: {} mattes made, {} were up to date, {} are not as made and were kept\n",
-             folder.output.string(), counts->made, counts->up_to_date, counts->foreign);
+  fmt::print("{}: {} mattes made{}, {} were up to date, {} are not as made and were kept\n",
+             folder.output.string(), counts->made,
+             counts->doubtful > 0 ? fmt::format(" ({} cannot be right)", counts->doubtful) : "",
+             counts->up_to_date, counts->foreign);
   return Done{};
 }
 
@@ -298,10 +312,8 @@ void add_matte(CLI::App& tree, Chosen& chosen) {
       "--zones", arguments->zones,
       "A folder of small pictures of the same names, .png: background painted red, tree green; photographs "
       "without one have a matte already, a plain background, or the sky behind them");
-  command
-      ->add_option("--method", arguments->method,
-                   "clusters (the thesis), or laplacian: alpha flows along what looks alike")
-      ->transform(CLI::CheckedTransformer(matte_methods, CLI::ignore_case));
+  add_choice(*command, "--method", arguments->method, matte_methods,
+             "clusters (the thesis), or laplacian: alpha flows along what looks alike");
   command->footer("Example: parvis tree matte photographs --zones zones -o capture");
   command->callback([arguments, &chosen] { chosen = [arguments] { return mattes(*arguments); }; });
 }
@@ -313,10 +325,8 @@ void add_reconstruct(CLI::App& tree, Chosen& chosen) {
   command->add_option("capture", arguments->capture, "Folder of RGBA pictures with a COLMAP model")
       ->required();
   command->add_option("-o,--output", arguments->output, "The volume (.volume)")->required();
-  command
-      ->add_option("--method", arguments->options.opacity.method,
-                   "projection (the thesis), sirt or multiplicative")
-      ->transform(CLI::CheckedTransformer(opacity_methods, CLI::ignore_case));
+  add_choice(*command, "--method", arguments->options.opacity.method, opacity_methods,
+             "projection (the thesis), sirt or multiplicative");
   command->add_option("--level", arguments->options.grid.level, "Divisions of the grid for opacity")
       ->capture_default_str()
       ->check(CLI::Range(1, 9));
@@ -353,10 +363,8 @@ void add_texture(CLI::App& tree, Chosen& chosen) {
       ->required();
   command->add_option("volume", arguments->volume, "From parvis tree reconstruct")->required();
   command->add_option("-o,--output", arguments->output, "The tree (.tree)")->required();
-  command
-      ->add_option("--method", arguments->options.method,
-                   "optimised, age_importance (the thesis), naive, random_texels")
-      ->transform(CLI::CheckedTransformer(texture_methods, CLI::ignore_case));
+  add_choice(*command, "--method", arguments->options.method, texture_methods,
+             "optimised, age_importance (the thesis), naive, random_texels");
   command
       ->add_option("--texels", arguments->options.texels_per_side,
                    "Texels along a billboard's side; 0: as fine as the photographs, below 6 MB")

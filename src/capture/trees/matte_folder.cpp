@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t record_version = 1;  // of the records' content
 constexpr int matte_version = 1;             // to be raised whenever the same input gives another matte
+constexpr double max_covered_edges = 0.2;    // of whole plants: a branch may be cut
 const std::string records = ".mattes";       // below the output
 
 /// The pictures of a folder, by name.
@@ -44,6 +45,15 @@ std::uint64_t hash_of(const Image8& picture) {
   ContentHash hash;
   hash.add(picture.width), hash.add(picture.height), hash.add(picture.channels), hash.add(picture.pixels);
   return hash.value();
+}
+
+/// Which part of the left, upper and right edges of a picture is opaque.
+double edges_covered(const Image8& rgba) {
+  int covered = 0;
+  const auto count = [&](int x, int y) { covered += rgba.at(x, y)[3] > 127; };
+  for (int x = 0; x < rgba.width; ++x) count(x, 0);
+  for (int y = 0; y < rgba.height; ++y) count(0, y), count(rgba.width - 1, y);
+  return double(covered) / (rgba.width + 2 * rgba.height);
 }
 
 /// One photograph on its way to its matte.
@@ -77,6 +87,15 @@ class MatteFile {
     }
     const Result<Image8> rgba = matte_of_photograph();
     if (!rgba) return rgba.errors();
+    if (const double covered = edges_covered(*rgba); covered > max_covered_edges) {
+      ++counts.doubtful;
+      fmt::print(
+          stderr,
+          "warning: {}: its matte covers {:.0f} % of the picture's sides and upper edge, more than that of a "
+          "plant that was photographed whole: background was taken for plant; paint zones for it "
+          "(--zones)\n",
+          photograph_.string(), 100.0 * covered);
+    }
     // The old matte goes before its record does: whoever interrupts this finds no matte, and not one that
     // looks like somebody's own.
     std::error_code code;
