@@ -74,7 +74,7 @@ class Converter {
     if (is_y_up) z_up[1] = {0.0, 0.0, 1.0, 0.0}, z_up[2] = {0.0, -1.0, 0.0, 0.0};
     find_origin(z_up);
     if (Status status = add_nodes(z_up); !status) return status.errors();
-    if (model_.parts.empty()) return error("no triangles are in this model");
+    if (model_.parts.empty()) return nothing_drawn();
     model_.origin += origin;
     formats::note_origin(model_.origin, account_);
     count_others();
@@ -186,6 +186,15 @@ class Converter {
 
   /// Meshes under their nodes' transforms, which are worked into the vertices: these formats animate nothing
   /// here.
+  Error nothing_drawn() const {
+    std::size_t points = 0;
+    for (unsigned i = 0; i < source_.mNumMeshes; ++i) points += source_.mMeshes[i]->mNumVertices;
+    if (points == 0) return error("no triangles are in this model");
+    return error(
+        "no triangles are in this model, but {} points: they need a surface, as photogrammetry's "
+        "programs make one of them (a mesh)",
+        points);
+  }
   Status add_nodes(const glm::dmat4& model_from_root) {
     return each_node(model_from_root, [&](const aiNode& node, const glm::dmat4& model_from_node) -> Status {
       for (unsigned i = 0; i < node.mNumMeshes; ++i)

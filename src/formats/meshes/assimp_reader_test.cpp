@@ -34,6 +34,13 @@ TEST(Assimp, FilesWithoutTrianglesAndGarbageAreErrors) {
   Errors warnings;
   EXPECT_FALSE(
       read_with_assimp(folder.write("points.obj", "v 0 0 0\nv 1 0 0\n"), formats::UpAxis::file, warnings));
+  const Result<Model> cloud = read_with_assimp(
+      folder.write("cloud.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                   "property float z\nend_header\n0 0 0\n1 0 0\n0 1 0\n"),
+      formats::UpAxis::file, warnings);
+  ASSERT_FALSE(cloud);
+  EXPECT_NE(to_string(cloud.errors()).find("3 points"), std::string::npos) << to_string(cloud.errors());
   EXPECT_FALSE(read_with_assimp(folder.write("x.fbx", "no model"), formats::UpAxis::file, warnings));
   EXPECT_FALSE(read_with_assimp(folder.path() / "absent.obj", formats::UpAxis::file, warnings));
 }
