@@ -43,6 +43,9 @@ void list_objects(const design::Session& session) {
     fmt::print("{:<18} {:<14} {:.3f},{:.3f},{:.3f} heading {:g}, {:g} x {:g} x {:g} m{}\n", object.name,
                object.kind, object.position.x, object.position.y, object.position.z, object.heading_deg,
                object.size_m.x, object.size_m.y, object.size_m.z, object.is_locked ? ", locked" : "");
+  for (const design::Measurement& each : session.measurements())
+    fmt::print("{:<18} {:<14} {}{}\n", each.name, design::quantity_names()[std::size_t(each.quantity)],
+               each.text(), each.is_locked ? ", locked" : "");
 }
 
 /// Prints each difference that turns the other design into this one, and their counts.
@@ -108,7 +111,8 @@ Status write_drawings(const Arguments& arguments, const house::Play& play) {
   plan_drawing::Sheet sheet = arguments.sheet;
   if (Status status = read_centre(arguments.centre, sheet); !status) return status;
   const plan_drawing::ScenePlan plan =
-      plan_drawing::plan_of(play.scene, design::placed_objects(play.scene, play.live(), "", true));
+      plan_drawing::plan_of(play.scene, design::placed_objects(play.scene, play.live(), "", true),
+                            design::measurements(play.live(), "", true));
   if (sheet.title.empty()) sheet.title = arguments.scene.scene.stem().string();
   if (!arguments.pdf.empty())
     if (Status status = plan_drawing::write_plan_pdf(arguments.pdf, plan, sheet); !status) return status;

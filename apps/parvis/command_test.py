@@ -801,14 +801,17 @@ class Plans(InAFolder):
     def test_a_plan_in_three_files(self):
         scene = self.write_scene()
         pdf, dxf, table = (self.folder / name for name in ("plan.pdf", "plan.dxf", "plan.csv"))
-        done = run("plan", scene, "--pdf", pdf, "--dxf", dxf, "--csv", table, "--title", "Place de la Liberté")
+        done = run("plan", scene, "--pdf", pdf, "--dxf", dxf, "--csv", table, "--title", "Place de la Liberté",
+                   "--do", "measure slope 0,0,0 10,0,0.5 name ramp")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("1 RAY", done.stderr)  # what is not read is named
         self.assertTrue(pdf.read_bytes().startswith(b"%PDF"))
         self.assertIn("AcDbBlockReference", dxf.read_text("latin-1"))
         rows = list(csv.DictReader(table.open(newline="")))
-        self.assertEqual([(row["kind"], row["x"], row["y"], row["width_m"]) for row in rows],
+        self.assertEqual([(row["kind"], row["x"], row["y"], row["width_m"]) for row in rows[:1]],
                          [("bench", "1043005.000", "6297995.250", "2.000")])
+        self.assertEqual([(row["kind"], row["name"], row["value"], row["unit"]) for row in rows[1:]],
+                         [("slope", "ramp", "0.0500", "1")])
 
     def test_it_says_what_it_needs(self):
         scene = self.write_scene()

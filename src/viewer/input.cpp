@@ -161,7 +161,7 @@ bool Input::press_planning(int key, int modifiers) {
       planning_.compare_with_next();
       return true;
     case GLFW_KEY_M:
-      tool.choose(planner::Mode::measure);
+      tool.choose_measure();
       return true;
     case GLFW_KEY_4:
     case GLFW_KEY_5:

@@ -184,7 +184,7 @@ void Overlay::draw_named(Planning& planning, const Pen& pen, const std::string& 
                          float width) {
   const scene::LiveScene& live = planning.visit().live();
   const scene::Node* node = live.find(name);
-  if (!node) return;
+  if (!node || node->schema->type == design::measured_type) return;
   const scene::Scene& scene = planning.visit().scene();
   const design::PlacedObject object = design::placed_object(scene, *node, "");
   const std::vector<int> made = live.objects_of(*node);
@@ -206,6 +206,34 @@ void Overlay::draw_differences(const Planning& planning, const Pen& pen) {
     if (each.how != design::Differs::moved) continue;
     draw_prism(pen, each.before, IM_COL32(96, 170, 255, 120), 1.5f);
     pen.dashes(each.before.position, each.after.position, colour);
+  }
+}
+
+/// Those of the open design as the pointer holds them, and those of other designs that are shown.
+void Overlay::draw_measurements(Planning& planning, const Pen& pen) {
+  constexpr ImU32 measured = IM_COL32(255, 120, 190, 255);
+  const planner::Tool& tool = *planning.tool();
+  const design::Session& session = *planning.session();
+  std::vector<design::Measurement> all = design::measurements(planning.visit().live(), "", true);
+  std::erase_if(all, [&](const design::Measurement& each) { return each.design == session.name(); });
+  std::ranges::move(tool.measurements(), std::back_inserter(all));
+  for (const design::Measurement& each : all) {
+    const bool is_lit =
+        each.design == session.name() && !each.name.empty() &&
+        (each.name == tool.pointed() || std::ranges::count(session.selected(), each.name) > 0);
+    const ImU32 colour = is_lit ? chosen : measured;
+    const std::vector<glm::dvec3> line = each.line();
+    const bool is_height = each.quantity == design::Quantity::height;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+      if (is_height && i == 0)
+        pen.dashes(line[i], line[i + 1], colour);
+      else
+        pen.line(line[i], line[i + 1], colour, is_lit ? 2.5f : 1.8f);
+    for (const glm::dvec3& point : each.points)
+      if (const auto at = pen.at(point))
+        pen.list->AddCircleFilled(*at, (is_lit ? 5.0f : 3.5f) * pen.scale, colour);
+    if (!design::check_measurement(each.quantity, each.points)) continue;  // not all clicked yet
+    if (const auto at = pen.at(each.middle())) pen.label(*at, each.text());
   }
 }
 
@@ -238,6 +266,7 @@ void Overlay::draw(Planning& planning, ImVec2 size, float scale) {
   if (!tool.pointed().empty() && std::ranges::count(planning.session()->selected(), tool.pointed()) == 0)
     draw_named(planning, pen, tool.pointed(), pointed, 1.5f);
   draw_differences(planning, pen);
+  draw_measurements(planning, pen);
   draw_held(planning, pen);
   const std::vector<glm::dvec3> corners = tool.corners();
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) pen.line(corners[i], corners[i + 1], chosen, 2.0f);

@@ -135,7 +135,7 @@ void PlanningBars::draw_tools(float height) {
   if (place("Catalogue", "K", catalogue_icon, planning_.shows_catalogue))
     planning_.shows_catalogue = !planning_.shows_catalogue;
   if (place("Surface", "U", polygon_icon, tool.mode() == Mode::surface)) tool.choose(Mode::surface);
-  if (place("Measure", "M", ruler_icon, tool.mode() == Mode::measure)) tool.choose(Mode::measure);
+  if (place("Measure", "M", ruler_icon, tool.mode() == Mode::measure)) tool.choose_measure();
   ImGui::Separator();
   if (place("Undo", "Ctrl+Z", undo_icon, false)) planning_.undo();
   if (place("Redo", "Ctrl+Shift+Z", redo_icon, false)) planning_.redo();
@@ -313,7 +313,14 @@ void PlanningBars::draw_inspector(PanelRows& rows) {
   for (const design::PlacedObject& object : session->objects())
     if (std::ranges::count(session->selected(), object.name) > 0) chosen.push_back(object);
   const std::string names = joined(session->selected());
-  if (chosen.empty()) {
+  for (const design::Measurement& each : session->measurements()) {
+    if (std::ranges::count(session->selected(), each.name) == 0) continue;
+    rows.heading(each.name.c_str());
+    rows.value(planning_.word("Measured"), each.text());
+  }
+  if (chosen.empty() && !session->selected().empty()) {
+    if (rows.buttons({planning_.word("Delete")}, 1) == 0u) planning_.run("delete " + names);
+  } else if (chosen.empty()) {
     rows.heading(planning_.word("nothing selected").c_str());
     rows.remark(planning_.word(planning_.tool()->hint()));
   } else {

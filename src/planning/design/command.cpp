@@ -63,6 +63,15 @@ class Draft {
 
 std::string name_of(const Node& node) { return node.text("name"); }
 bool is_surface(const Node& node) { return node.schema->type == surface_type; }
+bool is_placed(const Node& node) { return node.schema->type == placed_type; }
+/// Of a surface or a measurement: the attribute with its points.
+const char* points_of(const Node& node) { return is_surface(node) ? "outline" : "points"; }
+/// "surface" or "measurement", for people.
+const char* what_is(const Node& node) {
+  return is_surface(node) ? "surface" : is_placed(node) ? "object" : "measurement";
+}
+/// By which objects that commands make are numbered.
+std::string stem_of(const Node& node) { return is_surface(node) ? "surface" : node.text("kind"); }
 glm::dvec3 place_of(const Node& node) { return exact_decimals(node.vec3("position")); }
 
 std::vector<Node> Draft::objects(const Names& names, bool to_change) {
@@ -138,7 +147,7 @@ void Draft::place(Node& node, glm::dvec3 at) {
 
 /// Do two objects of one kind stand in one place?
 bool Draft::is_near(const Node& one, const Node& other) const {
-  return !is_surface(one) && !is_surface(other) && one.text("kind") == other.text("kind") &&
+  return is_placed(one) && is_placed(other) && one.text("kind") == other.text("kind") &&
          glm::distance(place_of(one), place_of(other)) < same_place_m;
 }
 
@@ -150,7 +159,7 @@ Errors Draft::taken_places() const {
   for (std::size_t i = 0; i < made_.size() && refusals.empty(); ++i) {
     if (!made_[i].after) continue;
     const Node& after = *made_[i].after;
-    if (made_[i].before && !is_surface(after) && place_of(*made_[i].before) == place_of(after)) continue;
+    if (made_[i].before && is_placed(after) && place_of(*made_[i].before) == place_of(after)) continue;
     const auto refuse = [&](const Node& other) {
       if (is_near(after, other))
         refusals.push_back(
@@ -217,7 +226,7 @@ void forget(Node& node, const char* attribute) {
 }
 
 void paint_one(Draft& draft, Node& node, const std::string& colour, const std::string& material) {
-  const Kind* kind = is_surface(node) ? nullptr : draft.kind(node.text("kind"));
+  const Kind* kind = is_placed(node) ? draft.kind(node.text("kind")) : nullptr;
   if (!colour.empty()) {
     if (kind && !kind->may_change(Changeable::colour))
       draft.fail(error("the colour of a {} is fixed", kind->name));
@@ -260,23 +269,67 @@ struct Maker {
       return draft.fail(error("a surface has at least three corners, not {}", c.outline.size()));
     if (!c.name.empty()) draft.check_name(c.name);
     draft.give(node, "name", c.name.empty() ? draft.free_name("surface") : c.name);
-    std::vector<glm::vec3> outline;
-    for (glm::dvec3 corner : c.outline) {
-      Node there = draft.fresh(placed_type);
-      draft.place(there, corner);
-      if (!draft.has_failed()) outline.push_back(there.vec3("position"));
-    }
-    draft.give(node, "outline", outline);
+    draft.give(node, "outline", placed_points(c.outline));
     draft.give_text(node, "material", c.material);
     if (!c.colour.empty()) draft.give_text(node, "colour", c.colour);
     draft.adds(std::move(node));
   }
 
+  /// The points, as far away as objects may stand.
+  std::vector<glm::vec3> placed_points(const std::vector<glm::dvec3>& points) const {
+    std::vector<glm::vec3> placed;
+    for (const glm::dvec3& point : points) {
+      Node there = draft.fresh(placed_type);
+      draft.place(there, point);
+      if (!draft.has_failed()) placed.push_back(there.vec3("position"));
+    }
+    return placed;
+  }
+
+  void operator()(const Measure& c) const {
+    const auto known = std::ranges::find(quantity_names(), c.quantity);
+    if (known == quantity_names().end())
+      return draft.fail(error("\"{}\" cannot be measured{}", c.quantity.substr(0, 40),
+                              names_that_exist(c.quantity, quantity_names())));
+    Node node = draft.fresh(measured_type);
+    if (!c.name.empty()) draft.check_name(c.name);
+    draft.give(node, "name", c.name.empty() ? draft.free_name(c.quantity) : c.name);
+    draft.give_text(node, "kind", c.quantity);
+    draft.give(node, "points", placed_points(c.points));
+    if (!draft.has_failed()) check(node);
+    draft.adds(std::move(node));
+  }
+
+  /// Of a measurement: whether its points can be measured.
+  void check(const Node& node) const {
+    const Measurement made = measurement(node, "");
+    if (Status status = check_measurement(made.quantity, made.points); !status)
+      draft.fail(status.errors().front());
+  }
+
+  void operator()(const MovePoint& c) const {
+    const std::vector<Node> objects = draft.objects({c.name});
+    if (objects.empty()) return;
+    const Node& node = objects.front();
+    if (objects.size() > 1 || is_placed(node))
+      return draft.fail(error("\"{}\" is no measurement and no surface: it has no points to move", c.name));
+    std::vector<glm::vec3> points = node.points(points_of(node));
+    if (c.number < 1 || std::size_t(c.number) > points.size())
+      return draft.fail(error("\"{}\" has points 1 to {}, not {}", c.name, points.size(), c.number));
+    const std::vector<glm::vec3> to = placed_points({c.to});
+    if (to.empty()) return;
+    points[std::size_t(c.number) - 1] = to.front();
+    Node after = node;
+    draft.give(after, points_of(node), points);
+    if (!is_surface(node)) check(after);
+    draft.changes(node, std::move(after));
+  }
+
   void shift(const Node& node, glm::dvec3 by, Node& after) const {
-    if (!is_surface(node)) return draft.place(after, place_of(node) + by);
-    std::vector<glm::vec3> outline = node.points("outline");
-    for (glm::vec3& corner : outline) corner = glm::vec3(glm::dvec3(corner) + by);
-    draft.give(after, "outline", outline);
+    if (is_placed(node)) return draft.place(after, place_of(node) + by);
+    std::vector<glm::dvec3> moved;
+    for (const glm::vec3& point : node.points(points_of(node))) moved.push_back(exact_decimals(point) + by);
+    draft.give(after, points_of(node), placed_points(moved));
   }
 
   void operator()(const Move& c) const {
@@ -284,8 +337,9 @@ struct Maker {
     if (objects.empty()) return;
     glm::dvec3 by = c.by;
     const auto first = [&] {
-      return is_surface(objects.front()) ? glm::dvec3(objects.front().points("outline").front())
-                                         : place_of(objects.front());
+      return is_placed(objects.front())
+                 ? place_of(objects.front())
+                 : exact_decimals(objects.front().points(points_of(objects.front())).front());
     };
     if (c.is_absolute) {
       if (by.z == rests) by.z = draft.height_at(glm::dvec2(by), c.names);
@@ -293,7 +347,7 @@ struct Maker {
     }
     for (const Node& node : objects) {
       Node after = node;
-      if (!is_surface(node) && c.is_absolute && &node == &objects.front())
+      if (is_placed(node) && c.is_absolute && &node == &objects.front())
         draft.place(after,
                     {c.by.x, c.by.y,
                      c.by.z == rests ? draft.height_at(glm::dvec2(c.by), c.names) : c.by.z});  // exactly
@@ -312,14 +366,14 @@ struct Maker {
         const glm::dvec2 from = at - *c.about;
         return *c.about + glm::dvec2(cosine * from.x - sine * from.y, sine * from.x + cosine * from.y);
       };
-      if (is_surface(node)) {
+      if (!is_placed(node)) {
         if (!c.about) {
-          draft.fail(error("\"{}\" is a surface: say about which place it turns", name_of(node)));
+          draft.fail(error("\"{}\" is a {}: say about which place it turns", name_of(node), what_is(node)));
           continue;
         }
-        std::vector<glm::vec3> outline = node.points("outline");
+        std::vector<glm::vec3> outline = node.points(points_of(node));
         for (glm::vec3& corner : outline) corner = glm::vec3(glm::vec2(turned(glm::dvec2(corner))), corner.z);
-        draft.give(after, "outline", outline);
+        draft.give(after, points_of(node), outline);
       } else {
         double heading = c.is_absolute ? c.degrees : glm::degrees(node.number("heading_deg")) + c.degrees;
         heading = std::remainder(heading, 360.0);
@@ -334,8 +388,8 @@ struct Maker {
     if (c.factor == 1.0 && !c.width && !c.depth && !c.height)
       return draft.fail(error("no size is given: by FACTOR, width M, depth M or height M"));
     for (const Node& node : draft.objects(c.names)) {
-      if (is_surface(node)) {
-        draft.fail(error("\"{}\" is a surface: draw it again to resize it", name_of(node)));
+      if (!is_placed(node)) {
+        draft.fail(error("\"{}\" is a {}: move its points to resize it", name_of(node), what_is(node)));
         continue;
       }
       Node after = node;
@@ -351,7 +405,7 @@ struct Maker {
   void operator()(const Duplicate& c) const {
     for (const Node& node : draft.objects(c.names, false)) {
       Node copy = node;
-      draft.give(copy, "name", draft.free_name(is_surface(node) ? "surface" : node.text("kind")));
+      draft.give(copy, "name", draft.free_name(stem_of(node)));
       forget(copy, "locked");
       shift(node, c.by, copy);
       draft.adds(std::move(copy));
@@ -382,7 +436,8 @@ struct Maker {
     const std::vector<Node> objects = draft.objects(c.names);
     if (objects.size() < 3)
       return draft.fail(error("even spacing needs three objects or more, not {}", objects.size()));
-    if (std::ranges::any_of(objects, is_surface)) return draft.fail(error("surfaces cannot be spaced"));
+    if (!std::ranges::all_of(objects, is_placed))
+      return draft.fail(error("surfaces and measurements cannot be spaced"));
     const glm::dvec3 from = place_of(objects.front()), to = place_of(objects.back());
     for (std::size_t i = 1; i + 1 < objects.size(); ++i) {
       Node after = objects[i];
@@ -394,7 +449,8 @@ struct Maker {
   void operator()(const Align& c) const {
     const std::vector<Node> objects = draft.objects(c.names);
     if (objects.size() < 2) return draft.fail(error("objects are aligned with the first: name two or more"));
-    if (std::ranges::any_of(objects, is_surface)) return draft.fail(error("surfaces cannot be aligned"));
+    if (!std::ranges::all_of(objects, is_placed))
+      return draft.fail(error("surfaces and measurements cannot be aligned"));
     const int axis = c.what == "x" ? 0 : c.what == "y" ? 1 : c.what == "z" ? 2 : -1;
     if (axis < 0 && c.what != "heading")
       return draft.fail(error("\"{}\": objects are aligned by x, y, z or heading", c.what.substr(0, 40)));
@@ -444,8 +500,8 @@ struct Maker {
   void operator()(const Swap& c) const {
     if (!draft.kind(c.kind)) return;
     for (const Node& node : draft.objects(c.names)) {
-      if (is_surface(node)) {
-        draft.fail(error("\"{}\" is a surface and has no kind", name_of(node)));
+      if (!is_placed(node)) {
+        draft.fail(error("\"{}\" is a {} and cannot be swapped", name_of(node), what_is(node)));
         continue;
       }
       Node after = node;
@@ -460,8 +516,9 @@ struct Maker {
     if (from.empty()) return;
     for (const Node& node : draft.objects(c.names)) {
       if (name_of(node) == name_of(from.front())) continue;
-      if (is_surface(node) != is_surface(from.front())) {
-        draft.fail(error("\"{}\" and \"{}\" are not alike: one is a surface", c.from, name_of(node)));
+      if (node.schema != from.front().schema || node.schema->type == measured_type) {
+        draft.fail(error("\"{}\" is a {}, \"{}\" a {}: one cannot look like the other", c.from,
+                         what_is(from.front()), name_of(node), what_is(node)));
         continue;
       }
       Node after = node;
@@ -506,6 +563,11 @@ Result<Command> resolved(const DesignView& view, Command command) {
   } else if (auto* surface = std::get_if<Surface>(&command)) {
     for (glm::dvec3& corner : surface->outline) rest(corner);
     if (surface->name.empty()) surface->name = Draft(view).free_name("surface");
+  } else if (auto* measure = std::get_if<Measure>(&command)) {
+    for (glm::dvec3& point : measure->points) rest(point);
+    if (measure->name.empty()) measure->name = Draft(view).free_name(measure->quantity);
+  } else if (auto* point = std::get_if<MovePoint>(&command)) {
+    rest(point->to);
   }
   return command;
 }

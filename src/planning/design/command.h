@@ -105,13 +105,25 @@ struct Surface {
   std::vector<glm::dvec3> outline;
   std::string colour = {}, name = {};
 };
+/// measure distance|area|height|slope X,Y[,Z] X,Y[,Z] ... [name NAME]
+struct Measure {
+  std::string quantity;  ///< of quantity_names
+  std::vector<glm::dvec3> points;
+  std::string name = {};
+};
+/// point NAME N to X,Y[,Z]: the Nth point of a measurement, or corner of a surface, from 1 on, goes there
+struct MovePoint {
+  std::string name;
+  int number = 1;
+  glm::dvec3 to{0.0, 0.0, rests};
+};
 /// rename NAME as NAME
 struct Rename {
   std::string from, to;
 };
 
 using Command = std::variant<Insert, Move, Turn, Resize, Delete, Duplicate, Row, Space, Align, Group, Lock,
-                             Paint, Swap, Apply, Surface, Rename>;
+                             Paint, Swap, Apply, Surface, Measure, MovePoint, Rename>;
 
 /// What a command does to one object.
 struct Change {

@@ -189,6 +189,26 @@ Command read_surface(WordReader& words) {
   return surface;
 }
 
+Command read_measure(WordReader& words) {
+  Measure measure;
+  measure.quantity = words.word("distance, area, height or slope");
+  while (!words.is_at_end() && words.problem().empty())
+    if (words.takes("name"))
+      measure.name = words.word("a name");
+    else
+      measure.points.push_back(words.place("a point", rests));
+  return measure;
+}
+
+Command read_move_point(WordReader& words) {
+  MovePoint point;
+  point.name = words.word("the name of a measurement or surface");
+  point.number = int(std::clamp(words.number("which of its points, from 1 on"), -1.0, 1e6));
+  if (!words.takes("to")) words.fail("expected \"to\" behind the number");
+  point.to = words.place("where it goes", rests);
+  return point;
+}
+
 /// The word between two names.
 void expect(WordReader& words, const char* word) {
   if (!words.takes(word)) words.fail(fmt::format("expected \"{}\" behind the names", word));
@@ -266,6 +286,8 @@ const std::vector<Form>& forms() {
          return Command(apply);
        }},
       {"surface", "surface MATERIAL X,Y X,Y X,Y ... [colour #RRGGBB] [name NAME]", read_surface},
+      {"measure", "measure distance|area|height|slope X,Y[,Z] X,Y[,Z] ... [name NAME]", read_measure},
+      {"point", "point NAME N to X,Y[,Z]", read_move_point},
       {"rename", "rename NAME as NAME",
        [](WordReader& words) {
          Rename rename;
@@ -341,6 +363,14 @@ struct Writer {
     for (const glm::dvec3& corner : c.outline) text += fmt::format(" {}", place(corner));
     return text + with("colour", c.colour) + with("name", c.name);
   }
+  std::string operator()(const Measure& c) const {
+    std::string text = "measure " + c.quantity;
+    for (const glm::dvec3& point : c.points) text += fmt::format(" {}", place(point));
+    return text + with("name", c.name);
+  }
+  std::string operator()(const MovePoint& c) const {
+    return fmt::format("point {} {} to {}", c.name, c.number, place(c.to));
+  }
   std::string operator()(const Rename& c) const { return fmt::format("rename {} as {}", c.from, c.to); }
 };
 
@@ -374,6 +404,10 @@ struct Teller {
     return fmt::format("applied {} to {}", c.from, those(c.names));
   }
   std::string operator()(const Surface& c) const { return "inserted a surface of " + c.material; }
+  std::string operator()(const Measure& c) const {
+    return "measured " + (c.name.empty() ? c.quantity : c.name);
+  }
+  std::string operator()(const MovePoint& c) const { return "moved a point of " + c.name; }
   std::string operator()(const Rename& c) const { return fmt::format("renamed {} to {}", c.from, c.to); }
 };
 

@@ -109,6 +109,15 @@ std::string json_of(const scene::Scene& scene, const Session& session) {
     if (!object.group.empty()) entry["group"] = object.group;
     if (object.is_locked) entry["locked"] = true;
   }
+  for (const Measurement& made : session.measurements()) {
+    Json& entry = objects.emplace_back();
+    entry["name"] = made.name, entry["kind"] = measured_type;
+    entry["measures"] = quantity_names()[std::size_t(made.quantity)];
+    Json points = Json::array();
+    for (const glm::dvec3& each : made.points) points.push_back(point(each));
+    entry["points"] = std::move(points), entry["value"] = made.value();
+    if (made.is_locked) entry["locked"] = true;
+  }
   Json whole;
   whole["parvis_design"] = json_version, whole["name"] = session.name(), whole["unit"] = "m";
   whole["origin"] = point(scene.origin), whole["objects"] = std::move(objects);
@@ -136,6 +145,16 @@ Status read_json(const std::string& text, const std::string& file, Session& sess
   const auto text_in = [](const Json& entry, const char* key) {
     return entry.contains(key) && entry[key].is_string() ? entry[key].get<std::string>() : std::string();
   };
+  const auto points_in = [&](const Json& entry, const char* key) -> std::optional<std::vector<glm::dvec3>> {
+    std::vector<glm::dvec3> points;
+    if (!entry.contains(key) || !entry[key].is_array()) return std::nullopt;
+    for (const Json& each : entry[key]) {
+      const std::vector<double> at = numbers(each, 3);
+      if (at.empty()) return std::nullopt;
+      points.emplace_back(at[0], at[1], at[2]);
+    }
+    return points;
+  };
   std::size_t number = 0;
   for (const Json& entry : whole["objects"]) {
     ++number;
@@ -146,15 +165,14 @@ Status read_json(const std::string& text, const std::string& file, Session& sess
     const std::string kind = text_in(entry, "kind"), name = text_in(entry, "name");
     Status status = Done{};
     if (kind == "ground") {
-      Surface surface{text_in(entry, "material"), {}, text_in(entry, "colour"), name};
-      if (!entry.contains("outline") || !entry["outline"].is_array())
-        return wrong("a ground surface has an \"outline\"");
-      for (const Json& corner : entry["outline"]) {
-        const std::vector<double> at = numbers(corner, 3);
-        if (at.empty()) return wrong("a corner is [x, y, z] in metres");
-        surface.outline.emplace_back(at[0], at[1], at[2]);
-      }
-      status = session.run(Command(surface));
+      const auto outline = points_in(entry, "outline");
+      if (!outline) return wrong("a ground surface has an \"outline\" of corners [x, y, z] in metres");
+      status =
+          session.run(Command(Surface{text_in(entry, "material"), *outline, text_in(entry, "colour"), name}));
+    } else if (kind == measured_type) {
+      const auto points = points_in(entry, "points");
+      if (!points) return wrong("a measurement has \"points\" [x, y, z] in metres");
+      status = session.run(Command(Measure{text_in(entry, "measures"), *points, name}));
     } else {
       const std::vector<double> at =
           entry.contains("position") ? numbers(entry["position"], 3) : std::vector<double>();

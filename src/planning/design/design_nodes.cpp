@@ -70,6 +70,27 @@ scene::NodeSchema surface_schema() {
           .example = "design(name=\"a\") { surface(material=lawn, outline=\"0 0, 8 0, 8 6\") }"};
 }
 
+scene::NodeSchema measured_schema() {
+  return {
+      .type = measured_type,
+      .help =
+          "A ruler, area, height or slope of a design: planners see it in the window, on plans and in "
+          "tables, and "
+          "move its ends. Pictures do not show it.",
+      .attributes =
+          {text("name", "by which commands call it"),
+           choice("kind",
+                  "distance: along two points or more; area: in plan, within three points or more; height "
+                  "and slope: from the first of two points to the second",
+                  quantity_names())
+               .required(),
+           points("points", "what is measured").in("m").required().live(),
+           text("group", "objects of one group are selected together"),
+           flag("locked", "commands leave it as it is").by_default("0"), scene::visible_attribute()},
+      .stands_in = {design_type},
+      .example = "design(name=\"a\") { measured(kind=distance, points=\"0 0 0, 3 4 0\") }"};
+}
+
 /// As given, else as usual for the kind. What a round or square plan has only one length for follows the
 /// width.
 glm::dvec3 size_of(const Node& node, const Kind& kind) {
@@ -184,6 +205,12 @@ void build_surface(const Node& node, SceneBuilder& builder) {
   builder.add(std::move(object));
 }
 
+void check_measured(const Node& node, SceneBuilder& builder) {
+  const Measurement made = measurement(node, "");
+  if (Status status = check_measurement(made.quantity, made.points); !status)
+    builder.fail(error_at(node.where_of("points"), "{}", status.errors().front().message));
+}
+
 void find_designs(const scene::Nodes& nodes, std::vector<const Node*>& found) {
   for (const Node& node : nodes)
     if (node.schema->type == design_type)
@@ -205,6 +232,7 @@ void add_design_nodes(House& house) {
                  build_placed(node, builder, *readers);
                });
   registry.add(surface_schema(), build_surface);
+  registry.add(measured_schema(), check_measured);
 }
 
 std::vector<const Node*> designs_of(const scene::LiveScene& live) {
@@ -231,6 +259,12 @@ PlacedObject placed_object(const scene::Scene& scene, const Node& node, const st
     return object;
   }
   object.kind = node.text("kind");
+  if (node.schema->type == measured_type) {
+    for (const glm::vec3& point : node.points("points")) object.outline.emplace_back(exact_decimals(point));
+    object.label = object.kind;
+    if (!object.outline.empty()) object.position = exact_decimals(node.points("points").front());
+    return object;
+  }
   object.position = exact_decimals(node.vec3("position"));
   object.heading_deg = exact_decimal(float(glm::degrees(node.number("heading_deg"))));
   const Kind* kind = find_kind(scene, object.kind);
@@ -252,9 +286,37 @@ std::vector<PlacedObject> placed_objects(const scene::Scene& scene, const scene:
     const bool is_shown = live.frame_of(*node).is_visible && node->flag("visible");
     if ((!design.empty() && name != design) || (only_visible && !is_shown)) continue;
     for (const Node& child : node->children) {
+      if (child.schema->type == measured_type) continue;
       PlacedObject object = placed_object(scene, child, name);
       object.is_visible = object.is_visible && is_shown;
       if (!only_visible || object.is_visible) all.push_back(std::move(object));
+    }
+  }
+  return all;
+}
+
+Measurement measurement(const scene::Node& node, const std::string& design) {
+  Measurement made;
+  made.name = node.text("name"), made.design = design;
+  made.quantity = Quantity(std::ranges::find(quantity_names(), node.text("kind")) - quantity_names().begin());
+  for (const glm::vec3& point : node.points("points")) made.points.push_back(exact_decimals(point));
+  made.is_locked = node.flag("locked"), made.is_visible = node.flag("visible");
+  return made;
+}
+
+std::vector<Measurement> measurements(const scene::LiveScene& live, const std::string& design,
+                                      bool only_visible) {
+  std::vector<Measurement> all;
+  for (const Node* node : designs_of(live)) {
+    const std::string name = node->text("name");
+    const bool is_shown = live.frame_of(*node).is_visible && node->flag("visible");
+    if ((!design.empty() && name != design) || (only_visible && !is_shown)) continue;
+    for (const Node& child : node->children) {
+      if (child.schema->type != measured_type) continue;
+      Measurement made = measurement(child, name);
+      made.is_visible = made.is_visible && is_shown;
+      const bool is_whole = check_measurement(made.quantity, made.points).ok();  // messages may break it
+      if (is_whole && (!only_visible || made.is_visible)) all.push_back(std::move(made));
     }
   }
   return all;

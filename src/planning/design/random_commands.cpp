@@ -16,7 +16,7 @@ std::string random_command(Random& random, const Session& session) {
   const std::string kind = kinds[std::size_t(random.index(int(kinds.size())))];
   const std::vector<PlacedObject> objects = session.objects();
   const auto any = [&] { return objects[std::size_t(random.index(int(objects.size())))].name; };
-  const int choice = objects.size() < 3 ? random.index(2) : random.index(objects.size() > 60 ? 20 : 17);
+  const int choice = objects.size() < 3 ? random.index(2) : random.index(objects.size() > 60 ? 21 : 18);
   switch (choice) {
     case 0:
       return fmt::format("insert {} {} heading {}", kind, somewhere(random), random.index(360));
@@ -53,6 +53,15 @@ std::string random_command(Random& random, const Session& session) {
       return fmt::format("{} {}", random.chance(0.3f) ? "lock" : "unlock", any());
     case 16:
       return fmt::format("rename {} as n{}", any(), random.index(1'000'000));
+    case 17: {
+      const std::vector<Measurement> made = session.measurements();
+      if (made.empty() || random.chance(0.4f))
+        return fmt::format("measure distance {} {}", somewhere(random), somewhere(random));
+      const std::string& name = made[std::size_t(random.index(int(made.size())))].name;
+      return random.chance(0.4f)
+                 ? "delete " + name
+                 : fmt::format("point {} {} to {}", name, 1 + random.index(2), somewhere(random));
+    }
     default:
       return fmt::format("delete {},{}", any(), any());
   }

@@ -82,7 +82,9 @@ void Session::select(Names names) {
 
 Status Session::select_by(const std::vector<std::string>& words) {
   const std::string how = words.size() > 1 ? words[1] : "";
-  const std::vector<PlacedObject> all = objects();
+  std::vector<PlacedObject> all;  // and measurements
+  if (const Node* node = design())
+    for (const Node& child : node->children) all.push_back(placed_object(scene_, child, name_));
   const auto choose = [&](const auto& fits) {
     Names names;
     for (const PlacedObject& object : all)

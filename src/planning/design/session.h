@@ -57,6 +57,8 @@ class Session {
   DesignView view() const { return {scene_.get(), live_.get(), design(), heights_}; }
   /// Its objects as plain data.
   std::vector<PlacedObject> objects() const;
+  /// Its measurements as plain data.
+  std::vector<Measurement> measurements() const { return design::measurements(live_.get(), name_); }
   /// The script of what stands in the design. Equal designs have equal scripts.
   std::string script() const;
 

@@ -89,6 +89,17 @@ void add_placed(const ScenePlan& plan, formats::DxfPlan& dxf) {
   }
 }
 
+/// Lines and texts, of a layer for each design: MEASURES_ with its name.
+void add_measured(const ScenePlan& plan, formats::DxfPlan& dxf) {
+  constexpr double text_height_m = 0.25;
+  for (const PlanMeasure& each : plan.measured) {
+    const std::string layer = "MEASURES_" + each.measured.design;
+    formats::DxfLine& line = dxf.lines.emplace_back(formats::DxfLine{layer, {200, 0, 120}, {}});
+    for (const glm::dvec3& point : each.line) line.points.push_back(plan.origin + point);
+    dxf.texts.push_back({layer, each.text, plan.origin + each.middle, text_height_m});
+  }
+}
+
 /// A field of CSV (RFC 4180).
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -116,25 +127,32 @@ Status write_plan_dxf(const std::filesystem::path& file, const ScenePlan& plan) 
                            {2.0 * tree.crown_radius_m, 2.0 * tree.crown_radius_m, tree.height_m},
                            0.0});
   add_placed(plan, dxf);
+  add_measured(plan, dxf);
   if (dxf.lines.empty() && dxf.inserts.empty())
     return error("{}: the scene has nothing that a plan shows", file.string());
   return formats::write_dxf(file, dxf);
 }
 
 Status write_plan_csv(const std::filesystem::path& file, const ScenePlan& plan) {
-  std::string text = "kind,name,x,y,z,heading_deg,width_m,depth_m,height_m,design\r\n";
+  std::string text = "kind,name,x,y,z,heading_deg,width_m,depth_m,height_m,design,value,unit\r\n";
   const auto add = [&](const std::string& kind, const std::string& name, const glm::dvec3& position,
                        double heading_deg, const glm::dvec3& size_m, const std::string& design) {
     const glm::dvec3 at = plan.origin + position;
     text +=
-        fmt::format("{},{},{:.3f},{:.3f},{:.3f},{:.2f},{:.3f},{:.3f},{:.3f},{}\r\n", field(kind), field(name),
-                    at.x, at.y, at.z, heading_deg, size_m.x, size_m.y, size_m.z, field(design));
+        fmt::format("{},{},{:.3f},{:.3f},{:.3f},{:.2f},{:.3f},{:.3f},{:.3f},{},,\r\n", field(kind),
+                    field(name), at.x, at.y, at.z, heading_deg, size_m.x, size_m.y, size_m.z, field(design));
   };
   for (const design::PlacedObject& object : plan.placed)
     add(object.kind, object.name, object.position, object.heading_deg, object.size_m, object.design);
   for (const PlanTree& tree : plan.trees)
     add("tree", tree.name, tree.position, 0.0,
         {2.0 * tree.crown_radius_m, 2.0 * tree.crown_radius_m, tree.height_m}, "");
+  for (const auto& [each, line, middle, shown] : plan.measured) {
+    const glm::dvec3 at = plan.origin + each.points.front();
+    text += fmt::format("{},{},{:.3f},{:.3f},{:.3f},,,,,{},{:.4f},{}\r\n",
+                        design::quantity_names()[std::size_t(each.quantity)], field(each.name), at.x, at.y,
+                        at.z, field(each.design), each.value(), each.unit());
+  }
   return write_file(file, text);
 }
 

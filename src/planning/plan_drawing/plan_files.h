@@ -25,12 +25,12 @@ std::optional<glm::dvec2> paper_size_mm(const std::string& paper);
 /// unknown paper, a scale beyond 1:5 to 1:50,000, a sheet on which nothing lies.
 Status write_plan_pdf(const std::filesystem::path& file, const ScenePlan& plan, const Sheet& sheet);
 
-/// Layers WALLS, ROADS, THINGS, PLANTS, TREES, and DESIGN_ with the name of each design. Trees and placed
-/// objects are blocks; coordinates are those of the map where the scene is on one.
+/// Layers WALLS, ROADS, THINGS, PLANTS, TREES, and DESIGN_ and MEASURES_ with the name of each design. Trees
+/// and placed objects are blocks; coordinates are those of the map where the scene is on one.
 Status write_plan_dxf(const std::filesystem::path& file, const ScenePlan& plan);
 
-/// One line for each placed object and each tree: kind, name, x, y, z, heading_deg, width_m, depth_m,
-/// height_m, design; coordinates as in the DXF.
+/// One line for each placed object, tree and measurement: kind, name, x, y, z, heading_deg, width_m, depth_m,
+/// height_m, design, value, unit; coordinates as in the DXF, of a measurement those of its first point.
 Status write_plan_csv(const std::filesystem::path& file, const ScenePlan& plan);
 
 }  // namespace parvis::plan_drawing

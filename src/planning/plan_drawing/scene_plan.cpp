@@ -185,8 +185,10 @@ glm::dvec2 ScenePlan::middle() const {
   return min.x > max.x ? glm::dvec2(0.0) : 0.5 * (min + max);
 }
 
-ScenePlan plan_of(const scene::Scene& scene, std::vector<design::PlacedObject> placed) {
+ScenePlan plan_of(const scene::Scene& scene, std::vector<design::PlacedObject> placed,
+                  const std::vector<design::Measurement>& measured) {
   ScenePlan plan;
+  for (const design::Measurement& each : measured) plan.measured.push_back(PlanMeasure::of(each));
   plan.origin = scene.origin, plan.map = scene.map;
   std::set<std::string> names;
   for (const design::PlacedObject& object : placed) names.insert(object.name);

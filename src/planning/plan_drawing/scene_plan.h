@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "planning/design/measurement.h"
 #include "planning/design/placed_object.h"
 #include "scene/data/scene.h"
 
@@ -40,6 +41,19 @@ struct PlanTree {
   double crown_radius_m = 1.0, height_m = 1.0;
 };
 
+/// A measurement of a design, and what a drawing shows of it.
+struct PlanMeasure {
+  design::Measurement measured;
+  std::vector<glm::dvec3> line;  ///< design::Measurement::line
+  glm::dvec3 middle{0.0};        ///< where the text stands
+  std::string text;              ///< its value with a unit, UTF-8
+
+  /// All of it from the measurement.
+  static PlanMeasure of(const design::Measurement& measured) {
+    return {measured, measured.line(), measured.middle(), measured.text()};
+  }
+};
+
 /// All that a plan shows, in the scene's frame.
 struct ScenePlan {
   glm::dvec3 origin{0.0};  ///< map coordinates of the frame's origin; zero: the scene is not on a map
@@ -48,6 +62,7 @@ struct ScenePlan {
   std::vector<PlanTree> trees;
   std::vector<PlanText> texts;
   std::vector<design::PlacedObject> placed;  ///< of designs, and what blocks of drawings stand for
+  std::vector<PlanMeasure> measured;         ///< of designs
   std::vector<std::string> left_out;         ///< what a plan cannot hold, for its reader
 
   /// The middle of what is placed, or of everything.
@@ -59,6 +74,7 @@ inline constexpr float section_height_m = 1.0f;
 
 /// The plan of all static, visible things. `placed`: the objects of designs, which are left out of the rest
 /// where they are the scene's objects of the same name.
-ScenePlan plan_of(const scene::Scene& scene, std::vector<design::PlacedObject> placed);
+ScenePlan plan_of(const scene::Scene& scene, std::vector<design::PlacedObject> placed,
+                  const std::vector<design::Measurement>& measured = {});
 
 }  // namespace parvis::plan_drawing

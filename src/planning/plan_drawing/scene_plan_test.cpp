@@ -113,7 +113,8 @@ TEST(PlanLines, RingsAndOpenLinesOfSegmentsInAnyOrder) {
 
 TEST(PlanFiles, DxfIsInMapCoordinatesAndReadBack) {
   const TestFolder folder;
-  const ScenePlan plan = plan_of(small_place(), {placed_bench()});
+  const design::Measurement ruler{"ruler", "stone", design::Quantity::distance, {{-8, 0, 0}, {-8, 6, 0}}};
+  const ScenePlan plan = plan_of(small_place(), {placed_bench()}, {ruler});
   ASSERT_TRUE(write_plan_dxf(folder.path() / "plan.dxf", plan));
   Errors warnings;
   const auto drawing = formats::read_drawing(folder.path() / "plan.dxf", std::nullopt, warnings);
@@ -126,6 +127,10 @@ TEST(PlanFiles, DxfIsInMapCoordinatesAndReadBack) {
   EXPECT_NEAR(bench.size_m->x, 1.8, 1e-6);
   EXPECT_NEAR(bench.size_m->y, 0.5, 1e-6);
   EXPECT_EQ(drawing->layers[std::size_t(bench.layer)].name, "DESIGN_stone");
+  ASSERT_EQ(drawing->texts.size(), 1u);
+  EXPECT_EQ(drawing->texts[0].text, "6.00 m");
+  EXPECT_LT(glm::distance(drawing->texts[0].position, glm::dvec3(1042992, 6298003, 0)), 0.001);
+  EXPECT_EQ(drawing->layers[std::size_t(drawing->texts[0].layer)].name, "MEASURES_stone");
   double nearest = 1e9;
   for (const formats::DrawingLine& line : drawing->lines)
     for (const glm::dvec3& point : line.points)
@@ -168,12 +173,15 @@ TEST(PlanFiles, CsvHasALinePerObject) {
   bench.name = "the \"long\" bench, oak";
   ScenePlan plan = plan_of(small_place(), {bench});
   plan.trees.push_back({"lime", {1, 2, 0.5}, 2.0, 9.0});
+  plan.measured.push_back(
+      PlanMeasure::of({"ramp", "stone", design::Quantity::slope, {{0, 0, 0}, {10, 0, 0.5}}}));
   ASSERT_TRUE(write_plan_csv(folder.path() / "plan.csv", plan));
   EXPECT_EQ(*read_file(folder.path() / "plan.csv"),
-            "kind,name,x,y,z,heading_deg,width_m,depth_m,height_m,design\r\n"
+            "kind,name,x,y,z,heading_deg,width_m,depth_m,height_m,design,value,unit\r\n"
             "bench_stone,\"the \"\"long\"\" bench, "
-            "oak\",1043003.000,6297996.000,0.000,30.00,1.800,0.500,0.450,stone\r\n"
-            "tree,lime,1043001.000,6298002.000,0.500,0.00,4.000,4.000,9.000,\r\n");
+            "oak\",1043003.000,6297996.000,0.000,30.00,1.800,0.500,0.450,stone,,\r\n"
+            "tree,lime,1043001.000,6298002.000,0.500,0.00,4.000,4.000,9.000,,,\r\n"
+            "slope,ramp,1043000.000,6298000.000,0.000,,,,,stone,0.0500,1\r\n");
 }
 
 /// The middles of the first dark strokes left and right of a pixel, in pixels.

@@ -28,6 +28,28 @@ double wrapped_deg(double degrees) { return degrees - 360.0 * std::floor(degrees
 /// Clockwise from north.
 double bearing_deg(glm::dvec2 away) { return glm::degrees(std::atan2(away.x, away.y)); }
 
+/// In the pointer's picture; none: behind the eye.
+std::optional<glm::dvec2> pixel_of(const Pointer& pointer, const glm::dvec3& place) {
+  const glm::vec4 clip = pointer.camera.clip_from_camera(float(pointer.size.x) / float(pointer.size.y)) *
+                         pointer.camera.camera_from_world() * glm::vec4(glm::vec3(place), 1.0f);
+  if (clip.w <= 0.0f) return std::nullopt;
+  return (glm::dvec2(clip) / double(clip.w) * glm::dvec2(0.5, -0.5) + 0.5) * glm::dvec2(pointer.size);
+}
+
+double distance_to_line(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
+  const glm::dvec2 along = b - a;
+  const double length2 = glm::dot(along, along);
+  const double t = length2 > 0.0 ? std::clamp(glm::dot(p - a, along) / length2, 0.0, 1.0) : 0.0;
+  return glm::distance(p, a + t * along);
+}
+
+glm::dvec3 rounded(glm::dvec3 p) { return glm::round(p * 1e4) * 1e-4; }
+
+bool is_measured(const design::Change& change) {
+  const scene::Node& node = change.after ? *change.after : *change.before;
+  return node.schema->type == design::measured_type;
+}
+
 void add_outline(const std::vector<glm::dvec2>& outline, SnapTargets& targets) {
   for (std::size_t i = 0; i < outline.size(); ++i)
     targets.lines.push_back({outline[i], outline[(i + 1) % outline.size()]});
@@ -72,7 +94,8 @@ Status Tool::run(const design::Command& command) {
   const Status status = session_.run(command);
   if (!status) return status;
   for (const design::Change& change : session_.done().back().changes)
-    if (change.after && std::ranges::count(unsettled_, change.after->text("name")) == 0)
+    if (change.after && !is_measured(change) &&
+        std::ranges::count(unsettled_, change.after->text("name")) == 0)
       unsettled_.push_back(change.after->text("name"));
   show(std::nullopt);
   return status;
@@ -89,9 +112,15 @@ void Tool::give_up() {
 
 void Tool::choose(Mode mode) {
   give_up();
-  points_.clear(), measured_.clear(), kind_.clear();
+  points_.clear(), kind_.clear();
   placed_at_.reset();
   mode_ = mode;
+}
+
+void Tool::choose_measure() {
+  const bool goes_on = mode_ == Mode::measure;
+  choose(Mode::measure);
+  if (goes_on) quantity_ = design::Quantity((std::size_t(quantity_) + 1) % design::quantity_names().size());
 }
 
 void Tool::choose_kind(const std::string& kind) {
@@ -163,7 +192,7 @@ glm::dvec3 Tool::first_foot() const {
 design::Command Tool::move_by(glm::dvec2 by) const {
   const Names& names = session_.selected();
   if (copies_) return design::Duplicate{names, glm::dvec3(by, 0.0)};
-  if (names.size() == 1)
+  if (names.size() == 1 && live_.find(names.front())->schema->type != design::measured_type)
     return design::Move{names, glm::dvec3(glm::dvec2(anchor_) + by, design::rests), true};
   return design::Move{names, glm::dvec3(by, 0.0)};
 }
@@ -180,6 +209,9 @@ std::optional<design::Command> Tool::command_now() const {
       return design::Turn{session_.selected(), typed_.empty() ? turned_deg_ : std::atof(typed_.c_str())};
     case Action::resize:
       return design::Resize{session_.selected(), typed_.empty() ? factor_ : std::atof(typed_.c_str())};
+    case Action::point:
+      if (session_.selected().empty()) return std::nullopt;
+      return design::MovePoint{session_.selected().front(), pointed_end_ + 1, rounded(end_at_)};
     case Action::box:
       return std::nullopt;
     case Action::none:
@@ -212,6 +244,11 @@ void Tool::show(const std::optional<design::Command>& command) {
       refusals = made.errors();
   }
   if (!refusals.empty()) refusal_ = refusals.front().message;
+  held_.clear();
+  for (const design::Change& change : changes)
+    if (is_measured(change) && change.after)
+      held_.push_back(design::measurement(*change.after, session_.name()));
+  std::erase_if(changes, is_measured);
   const std::size_t refused = refusals.empty() ? 0 : changes.size();
   for (const std::string& name : unsettled_) {
     const scene::Node* node = live_.find(name);
@@ -242,6 +279,11 @@ void Tool::point_for_action(const Pointer& pointer) {
     const glm::dvec3 wanted = anchor_ + *now - grabbed_;
     const glm::dvec3 held = snap_point(pointer, wanted, session_.selected(), glm::dvec2(anchor_));
     moved_ = glm::dvec2(held - anchor_);
+  } else if (action_ == Action::point) {
+    const auto below = surfaces_.first_along(ray_of(pointer));
+    if (!below) return;
+    place_ = below->position;
+    end_at_ = snap_point(pointer, *place_, {}, std::nullopt);
   } else if (action_ == Action::turn) {
     const std::optional<glm::dvec3> now = on_level(pointer, anchor_.z);
     if (!now) return;
@@ -265,7 +307,7 @@ void Tool::point(const Pointer& pointer) {
   pointer_ = pointer;
   if (is_pressed_ && action_ == Action::none && mode_ == Mode::select && !session_.selected().empty() &&
       glm::distance(pointer.pixel, pressed_.pixel) > drag_px) {
-    action_ = Action::move;
+    action_ = pointed_end_ >= 0 ? Action::point : Action::move;
     anchor_ = first_foot();
     grabbed_ = pressed_place_.value_or(glm::dvec3(0.0));
   }
@@ -275,8 +317,32 @@ void Tool::point(const Pointer& pointer) {
   place_ = below ? std::optional(below->position) : std::nullopt;
   const scene::Node* node = below ? object_at(below->object) : nullptr;
   pointed_ = node && mode_ == Mode::select ? node->text("name") : "";
+  if (!is_pressed_) point_at_measurement(pointer);
   snapped_ = {};
   if (mode_ != Mode::select) point_for_insertion(pointer);
+}
+
+/// Measurements are drawn over all else, and are taken first: a point of one, or its line.
+void Tool::point_at_measurement(const Pointer& pointer) {
+  constexpr double line_px = 5.0;
+  pointed_end_ = -1;
+  if (mode_ != Mode::select) return;
+  double nearest = snap_px;
+  std::string on_line;
+  for (const design::Measurement& each : own_measurements()) {
+    for (std::size_t i = 0; i < each.points.size(); ++i) {
+      const std::optional<glm::dvec2> at = pixel_of(pointer, each.points[i]);
+      if (!at || glm::distance(*at, pointer.pixel) >= nearest) continue;
+      nearest = glm::distance(*at, pointer.pixel);
+      pointed_ = each.name, pointed_end_ = int(i);
+    }
+    const std::vector<glm::dvec3> line = each.line();
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      const std::optional<glm::dvec2> a = pixel_of(pointer, line[i]), b = pixel_of(pointer, line[i + 1]);
+      if (a && b && distance_to_line(pointer.pixel, *a, *b) < line_px) on_line = each.name;
+    }
+  }
+  if (pointed_end_ < 0 && !on_line.empty()) pointed_ = on_line;
 }
 
 bool Tool::press(const Pointer& pointer) {
@@ -299,7 +365,8 @@ bool Tool::press(const Pointer& pointer) {
     session_.select(names);
     return is_pressed_ = true;
   }
-  if (is_selected) return is_pressed_ = true;
+  if (pointed_end_ >= 0) names.clear();
+  if (is_selected && pointed_end_ < 0) return is_pressed_ = true;
   names = {pointed_};
   const std::string group = live_.find(pointed_)->text("group");
   for (const PlacedObject& object : session_.objects())
@@ -319,16 +386,11 @@ void Tool::select_in_box(const Pointer& pointer) {
   const glm::dvec2 low = glm::min(pressed_.pixel, pointer.pixel),
                    high = glm::max(pressed_.pixel, pointer.pixel);
   if (glm::distance(low, high) < drag_px) return session_.select({});
-  const glm::mat4 clip_from_world =
-      pointer.camera.clip_from_camera(float(pointer.size.x) / float(pointer.size.y)) *
-      pointer.camera.camera_from_world();
   Names names = pointer.adds ? session_.selected() : Names{};
   for (const PlacedObject& object : session_.objects()) {
-    const glm::vec4 clip = clip_from_world * glm::vec4(glm::vec3(object.position), 1.0f);
-    if (clip.w <= 0.0f || !object.is_visible) continue;
-    const glm::dvec2 at =
-        (glm::dvec2(clip) / double(clip.w) * glm::dvec2(0.5, -0.5) + 0.5) * glm::dvec2(pointer.size);
-    const bool is_inside = at.x >= low.x && at.y >= low.y && at.x <= high.x && at.y <= high.y;
+    const std::optional<glm::dvec2> at = pixel_of(pointer, object.position);
+    if (!at || !object.is_visible) continue;
+    const bool is_inside = at->x >= low.x && at->y >= low.y && at->x <= high.x && at->y <= high.y;
     if (is_inside && std::ranges::count(names, object.name) == 0) names.push_back(object.name);
   }
   session_.select(names);
@@ -357,23 +419,18 @@ Status Tool::release(const Pointer& pointer) {
   }
   if (mode_ == Mode::select || !place_) return Done{};
   const bool closes =
-      mode_ == Mode::surface && points_.size() > 2 &&
+      draws_outline() && points_.size() > 2 &&
       glm::distance(*place_, points_.front()) < snap_within_m(pointer, *place_) * close_px / snap_px;
-  if (closes) return finish_surface();
-  points_.push_back(*place_);
-  if (mode_ == Mode::measure && points_.size() == 2) {
-    measured_.push_back({points_[0], points_[1]});
-    points_.clear();
-  }
-  return Done{};
+  if (closes) return finish_points();
+  points_.push_back(rounded(*place_));
+  return mode_ == Mode::measure && !draws_outline() && points_.size() == 2 ? finish_points() : Status(Done{});
 }
 
-Status Tool::finish_surface() {
-  design::Surface surface{surface_material, {}};
-  for (const glm::dvec3& corner : points_)
-    surface.outline.emplace_back(rounded(glm::dvec2(corner)), std::round(corner.z * 1e4) * 1e-4);
-  points_.clear();
-  return session_.run(std::move(surface));
+/// Makes a surface or a measurement of the points that were clicked.
+Status Tool::finish_points() {
+  const std::vector<glm::dvec3> points = std::exchange(points_, {});
+  if (mode_ == Mode::surface) return session_.run(design::Surface{surface_material, points});
+  return session_.run(design::Measure{design::quantity_names()[std::size_t(quantity_)], points});
 }
 
 bool Tool::cancel() {
@@ -445,13 +502,12 @@ bool Tool::type(char character) {
 
 Status Tool::confirm() {
   if (action_ != Action::none) return finish();
-  if (mode_ == Mode::surface && points_.size() > 2) return finish_surface();
+  if (draws_outline() && points_.size() > 2) return finish_points();
   return Done{};
 }
 
 std::vector<Dimension> Tool::dimensions() const {
-  std::vector<Dimension> all = measured_;
-  if (mode_ == Mode::measure && points_.size() == 1 && place_) all.push_back({points_[0], *place_});
+  std::vector<Dimension> all;
   if (action_ != Action::move) return all;
   const glm::dvec3 now = anchor_ + glm::dvec3(moved_, 0.0);
   if (glm::length(moved_) > 0.0) all.push_back({anchor_, now});
@@ -462,6 +518,27 @@ std::vector<Dimension> Tool::dimensions() const {
       others.push_back(object.position);
   std::ranges::sort(others, {}, [&](glm::dvec3 p) { return glm::distance(p, now); });
   for (std::size_t i = 0; i < std::min<std::size_t>(2, others.size()); ++i) all.push_back({now, others[i]});
+  return all;
+}
+
+/// Those of the open design that are shown.
+std::vector<design::Measurement> Tool::own_measurements() const {
+  return design::measurements(live_, session_.name(), true);
+}
+
+std::vector<design::Measurement> Tool::measurements() const {
+  std::vector<design::Measurement> all = own_measurements();
+  for (const design::Measurement& held : held_) {
+    const auto same = std::ranges::find(all, held.name, &design::Measurement::name);
+    if (same == all.end())
+      all.push_back(held);
+    else
+      same->points = held.points;
+  }
+  if (mode_ != Mode::measure || points_.empty() || !place_) return all;
+  design::Measurement drawn{{}, session_.name(), quantity_, points_};
+  drawn.points.push_back(*place_);
+  all.push_back(std::move(drawn));
   return all;
 }
 
@@ -478,6 +555,7 @@ std::optional<std::array<glm::dvec2, 2>> Tool::box() const {
 }
 
 const char* Tool::hint() const {
+  if (action_ == Action::point) return "Let go where the end shall be. Esc takes it back.";
   if (action_ != Action::none && action_ != Action::box)
     return follows_click_ ? "Move the pointer and click, or type a distance and Enter. Esc takes it back."
                           : "Let go where it shall stand, or type a distance and Enter. Esc takes it back.";
@@ -485,7 +563,17 @@ const char* Tool::hint() const {
     case Mode::insert:
       return "Click where it shall stand; drag for a row; Q and E turn it. Esc ends.";
     case Mode::measure:
-      return "Click two points to measure from one to the other.";
+      switch (quantity_) {
+        case design::Quantity::distance:
+          return "Click two points to measure from one to the other. M: an area.";
+        case design::Quantity::area:
+          return "Click the corners of the area; Enter or the first corner closes it. M: a height.";
+        case design::Quantity::height:
+          return "Click the foot, then the top: the height from one to the other. M: a slope.";
+        case design::Quantity::slope:
+          return "Click two points: the slope from one to the other. M: a distance.";
+      }
+      break;
     case Mode::surface:
       return "Click the corners of the surface; Enter or the first corner closes it.";
     case Mode::select:

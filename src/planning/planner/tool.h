@@ -27,9 +27,9 @@ struct Pointer {
 };
 
 /// What is being done with the pointer.
-enum class Action : unsigned char { none, move, turn, resize, box };
+enum class Action : unsigned char { none, move, turn, resize, box, point };
 
-/// A distance that is shown while something moves, or that was measured.
+/// A distance that is shown while something moves.
 struct Dimension {
   glm::dvec3 from{0.0}, to{0.0};
   /// Between its ends.
@@ -56,6 +56,11 @@ class Tool {
   void choose_kind(const std::string& kind);
   /// The material of the next surface.
   std::string surface_material = "paving";
+
+  /// What the next clicks measure: two points, or the corners of an area.
+  design::Quantity quantity() const { return quantity_; }
+  /// Takes up measuring; where it is in hand already, the next quantity.
+  void choose_measure();
 
   /// The pointer is there: shows what a click would do.
   void point(const Pointer& pointer);
@@ -103,8 +108,11 @@ class Tool {
   const Snapped& snapped() const { return snapped_; }
   /// Height at which the snapped point lies.
   double snapped_height_m() const { return snapped_height_m_; }
-  /// Distances that are drawn: of a move, to neighbours, of a measurement.
+  /// Distances that are drawn: of a move, to neighbours.
   std::vector<Dimension> dimensions() const;
+  /// Measurements of the design as they would be after a click; that which is being drawn is the last,
+  /// without a name.
+  std::vector<design::Measurement> measurements() const;
   /// Corners of a surface that is being drawn, with the pointer's as the last.
   std::vector<glm::dvec3> corners() const;
   /// The two corners of a box that selects, pixels; none: no box is drawn.
@@ -130,7 +138,12 @@ class Tool {
   void point_for_action(const Pointer& pointer);
   Status run(const design::Command& command);
   Status finish();
-  Status finish_surface();
+  Status finish_points();
+  bool draws_outline() const {
+    return mode_ == Mode::surface || (mode_ == Mode::measure && quantity_ == design::Quantity::area);
+  }
+  void point_at_measurement(const Pointer& pointer);
+  std::vector<design::Measurement> own_measurements() const;
   void select_in_box(const Pointer& pointer);
   void give_up();
 
@@ -158,7 +171,10 @@ class Tool {
   Snapped snapped_;
   double snapped_height_m_ = 0.0;
   std::vector<glm::dvec3> points_;  ///< of a surface or a measurement
-  std::vector<Dimension> measured_;
+  design::Quantity quantity_ = design::Quantity::distance;
+  int pointed_end_ = -1;  ///< of the measurement that is pointed at; -1: none
+  glm::dvec3 end_at_{0.0};
+  std::vector<design::Measurement> held_;  ///< measurements that the command under way would change
 };
 
 }  // namespace parvis::planner

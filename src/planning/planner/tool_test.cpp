@@ -288,12 +288,47 @@ TEST_F(ToolTest, DrawsASurfaceByItsCorners) {
 
 TEST_F(ToolTest, MeasuresFromPointToPoint) {
   place("camera(name=eye)");
-  tool_->choose(Mode::measure);
+  tool_->choose_measure();
   click(at({0, 0, 0}));
+  tool_->point(at({3, 0, 0}));
+  ASSERT_EQ(tool_->measurements().size(), 1u) << "while the second point is looked for";
+  EXPECT_NEAR(tool_->measurements().back().value(), 3.0, 0.05);
+  EXPECT_TRUE(session_->measurements().empty());
   click(at({3, 4, 0}));
-  ASSERT_EQ(tool_->dimensions().size(), 1u);
-  EXPECT_NEAR(tool_->dimensions().front().length_m(), 5.0, 0.05);
+  ASSERT_EQ(session_->measurements().size(), 1u);
+  EXPECT_NEAR(session_->measurements().front().value(), 5.0, 0.05);
   EXPECT_TRUE(session_->objects().empty());
+  tool_->choose_measure();
+  EXPECT_EQ(tool_->quantity(), design::Quantity::area);
+  for (const glm::dvec3 corner : {glm::dvec3(0, -4, 0), {4, -4, 0}, {4, -1, 0}}) click(at(corner));
+  EXPECT_TRUE(tool_->confirm());
+  ASSERT_EQ(session_->measurements().size(), 2u);
+  EXPECT_NEAR(session_->measurements().back().value(), 6.0, 0.1);
+}
+
+TEST_F(ToolTest, EndsOfAMeasurementAreDraggedInEveryView) {
+  for (const Camera& view : {plan_view(20.0f), street_view(), balcony_view()}) {
+    camera_ = view;
+    place("design(name=a) { measured(name=m, kind=distance, points=\"0 0 0, 2 0 0\") }");
+    tool_->point(at({2, 0, 0}));
+    EXPECT_EQ(tool_->pointed(), "m");
+    const Pointer from = at({2, 0, 0}), to = at({4, 1, 0});
+    tool_->press(from);
+    tool_->point(to);
+    EXPECT_EQ(tool_->action(), Action::point);
+    EXPECT_NEAR(tool_->measurements().front().points[1].x, 4.0, 0.05) << "it follows the pointer";
+    EXPECT_EQ(session_->measurements().front().points[1], glm::dvec3(2, 0, 0)) << "until it is let go";
+    EXPECT_TRUE(tool_->release(to));
+    EXPECT_LT(glm::distance(session_->measurements().front().points[1], glm::dvec3(4, 1, 0)), 0.05);
+    EXPECT_EQ(session_->measurements().front().points[0], glm::dvec3(0, 0, 0));
+    EXPECT_TRUE(session_->undo());
+    EXPECT_EQ(session_->measurements().front().points[1], glm::dvec3(2, 0, 0));
+    click(at({1, 0, 0}));
+    EXPECT_EQ(session_->selected(), design::Names{"m"}) << "its line selects it";
+    drag(at({1, 0, 0}), at({1, 1, 0}));
+    EXPECT_NEAR(session_->measurements().front().points[0].y, 1.0, 0.05);
+    EXPECT_NEAR(session_->measurements().front().value(), 2.0, 1e-3) << "all of it moves";
+  }
 }
 
 TEST_F(ToolTest, FindsTheTreesOfADesign) {
