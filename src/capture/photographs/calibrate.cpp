@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "base/content_hash.h"
 #include "base/files.h"
@@ -27,21 +28,23 @@ namespace parvis::photographs {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::size_t min_matches = 20;     ///< of a pair; COLMAP needs 15 that agree by one geometry
+constexpr std::size_t min_matches = 20;  ///< of a pair; COLMAP needs 15 that agree by one geometry
+constexpr int work_version = 2;          ///< to be raised where the same photographs give other work
+/// Of COLMAP's stages that draw numbers or add in the order of their threads: the same photographs must give
+/// the same cameras.
+constexpr const char* one_thread = "1";
 constexpr const char* max_trials = "3000";  ///< to find a pair's geometry: enough where a third is right
 
 /// The pictures that a job works on.
 struct Pictures {
   std::vector<std::string> names;
   std::map<std::string, PictureHeader> headers;  ///< by name
-  bool are_alike = true;                         ///< one size and focal length
   std::string hash;                              ///< of names, sizes, times
 };
 
 /// Decodes every picture once: COLMAP would take half of a file that is cut short for a whole one.
 Pictures usable_pictures(const fs::path& folder, Errors& problems) {
   Pictures pictures;
-  PictureHeader first;
   std::string identity;
   const std::vector<std::string> names = picture_names(folder);
   Progress progress("reading photographs", names.size());
@@ -57,9 +60,6 @@ Pictures usable_pictures(const fs::path& folder, Errors& problems) {
       problems.push_back(image.errors().front());
       continue;
     }
-    if (pictures.names.empty()) first = *info;
-    pictures.are_alike = pictures.are_alike && info->width == first.width && info->height == first.height &&
-                         info->focal_length_mm == first.focal_length_mm;
     pictures.names.push_back(name);
     pictures.headers.emplace(name, *info);
     std::error_code ignored;
@@ -85,21 +85,35 @@ struct WorkFolder {
   fs::path log(const std::string& stage) const { return root / (stage + ".log"); }
 };
 
+/// Pictures of one camera, size and zoom share a lens: one that differs does not cost the others theirs.
+FeatureJob feature_job(const CalibrationJob& job, const Pictures& pictures, const WorkFolder& work) {
+  FeatureJob features{job.pictures, work.list(), work.database(), job.lens, {}, {}, job.max_features};
+  std::map<std::tuple<std::string, int, int, double>, std::vector<std::string>> groups;
+  for (const std::string& name : pictures.names) {
+    const PictureHeader& header = pictures.headers.at(name);
+    groups[{header.camera, header.width, header.height, header.focal_length_mm}].push_back(name);
+  }
+  for (const auto& [lens, names] : groups) {
+    if (job.one_lens_for_all && names.size() > 1)
+      features.groups.push_back(names);
+    else
+      features.alone.insert(features.alone.end(), names.begin(), names.end());
+  }
+  return features;
+}
+
 /// Starts afresh where pictures or options are not those of the work that lies there.
 Status prepare(const CalibrationJob& job, const Pictures& pictures, const WorkFolder& work) {
   std::error_code code;
   fs::create_directories(work.root, code);
   if (code) return error("{}: cannot be made ({})", work.root.string(), code.message());
   const std::string inputs =
-      fmt::format("{} {} {} {}\n{}\n{}", job.lens, job.one_lens_for_all, job.max_features,
+      fmt::format("{} {} {} {} {}\n{}\n{}", work_version, job.lens, job.one_lens_for_all, job.max_features,
                   max_feature_side_px, job.cameras.string(), pictures.hash);
   const Result<std::string> before = read_file(work.inputs());
   if (before && *before == inputs) return Done{};
   for (const fs::path& old : {work.database(), work.sparse(), work.finished(), work.given()})
     fs::remove_all(old, code);
-  std::string list;
-  for (const std::string& name : pictures.names) list += name + "\n";
-  if (Status status = write_file(work.list(), list); !status) return status;
   return write_file(work.inputs(), inputs);
 }
 
@@ -130,9 +144,14 @@ Result<std::size_t> write_matches(const WorkFolder& work) {
 
 Status match(const Pictures& pictures, const WorkFolder& work) {
   const auto compared = [&] { return colmap_progress(work.database()).pairs; };
-  const std::vector<std::string> common{
-      "--database_path", work.database(), "--SiftMatching.use_gpu", "0", "--SiftMatching.max_num_trials",
-      max_trials};
+  const std::vector<std::string> common{"--database_path",
+                                        work.database(),
+                                        "--SiftMatching.use_gpu",
+                                        "0",
+                                        "--SiftMatching.max_num_trials",
+                                        max_trials,
+                                        "--SiftMatching.num_threads",
+                                        one_thread};
   std::vector<std::string> arguments{"colmap", "exhaustive_matcher"};
   std::size_t count = pictures.names.size() * (pictures.names.size() - 1) / 2;
   // COLMAP's lists of pairs cannot hold names with spaces.
@@ -180,11 +199,11 @@ Status find_cameras(const CalibrationJob& job, const Pictures& pictures, const W
     const Result<std::string> text = read_file(log);
     return text ? count_of(*text, "Registering image #") + 2 : std::size_t(0);
   };
-  const Status status =
-      run_stage("placing photographs", pictures.names.size(), registered,
-                {"colmap", "mapper", "--database_path", work.database(), "--image_path", job.pictures,
-                 "--output_path", work.sparse(), "--Mapper.min_model_size", "2"},
-                log);
+  const Status status = run_stage(
+      "placing photographs", pictures.names.size(), registered,
+      {"colmap", "mapper", "--database_path", work.database(), "--image_path", job.pictures, "--output_path",
+       work.sparse(), "--Mapper.min_model_size", "2", "--Mapper.num_threads", one_thread},
+      log);
   if (fs::exists(work.sparse() / "0" / "images.bin", code)) return status;
   Errors errors{error("{}: no two photographs show one place well enough to place their cameras",
                       job.pictures.string())};
@@ -207,11 +226,11 @@ Status triangulate(const CalibrationJob& job, const PhotographSet& given, const 
     const Result<std::string> text = read_file(log);
     return text ? count_of(*text, "Triangulating image #") : std::size_t(0);
   };
-  return run_stage(
-      "triangulating points", given.photographs.size(), triangulated,
-      {"colmap", "point_triangulator", "--database_path", work.database(), "--image_path", job.pictures,
-       "--input_path", work.given(), "--output_path", work.sparse() / "0", "--clear_points", "1"},
-      log);
+  return run_stage("triangulating points", given.photographs.size(), triangulated,
+                   {"colmap", "point_triangulator", "--database_path", work.database(), "--image_path",
+                    job.pictures, "--input_path", work.given(), "--output_path", work.sparse() / "0",
+                    "--clear_points", "1", "--Mapper.num_threads", one_thread},
+                   log);
 }
 
 /// The model with the most photographs; those of the others are named: they show another place.
@@ -321,10 +340,7 @@ Result<LoadedSet> reconstruct(const CalibrationJob& job, const Pictures& picture
     given.set.points.clear();
   }
   if (std::error_code code; !fs::exists(work.finished(), code)) {
-    const FeatureJob features{
-        job.pictures,    work.list(), work.database(), job.lens, job.one_lens_for_all && pictures.are_alike,
-        job.max_features};
-    if (Status status = find_features(features, pictures.names.size(), work.log("features")); !status)
+    if (Status status = find_features(feature_job(job, pictures, work), work.log("features")); !status)
       return status.errors();
     if (Status status = match(pictures, work); !status) return status.errors();
     const Status status =

@@ -17,10 +17,9 @@ struct CalibrationJob {
   std::filesystem::path
       cameras;  ///< given cameras (camera_files.h): only points are computed. Empty: cameras, too
   std::string lens = "SIMPLE_RADIAL";  ///< COLMAP's model for the cameras that are found
-  bool one_lens_for_all =
-      true;                 ///< where all pictures have one size and focal length; else a lens per photograph
-  int max_features = 4000;  ///< per photograph; the time of matching grows with its square
-  double scale = 1.0;       ///< metres per unit of the reconstruction; 1 where it is not known
+  bool one_lens_for_all = true;        ///< of one camera, size and focal length; else a lens per photograph
+  int max_features = 4000;             ///< per photograph; the time of matching grows with its square
+  double scale = 1.0;                  ///< metres per unit of the reconstruction; 1 where it is not known
   struct Distance {
     std::string a, b;
     double metres = 0.0;

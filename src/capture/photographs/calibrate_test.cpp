@@ -89,6 +89,57 @@ TEST(Calibrate, FindsCamerasAndNamesWhatItCannotUse) {
   EXPECT_GT(calibration_report(kept->set).size(), 200u);
 }
 
+/// Photographs of the test place in a folder; the third one is larger where `one_differs`.
+std::filesystem::path written_photographs(const TestFolder& folder, int count, bool one_differs) {
+  const auto pictures = folder.path() / "pictures";
+  std::filesystem::create_directories(pictures);
+  PhotographSet set = test_photographs(count, 480, 360);
+  if (one_differs) set.photographs[2] = test_photographs(count, 600, 450).photographs[2];
+  for (const Photograph& photograph : set.photographs)
+    EXPECT_TRUE(write_image(pictures / photograph.name, test_picture(photograph, 1)));
+  return pictures;
+}
+
+TEST(Calibrate, APhotographOfAnotherSizeHasALensOfItsOwn) {
+  const TestFolder folder;
+  if (!has_colmap(folder)) GTEST_SKIP() << "colmap is not installed";
+  CalibrationJob job;
+  job.pictures = written_photographs(folder, 5, true);
+  job.folder = folder.path() / "out";
+  job.max_features = 1500;
+  const auto calibrated = calibrate(job);
+  ASSERT_TRUE(calibrated) << to_string(calibrated.errors());
+  ASSERT_EQ(calibrated->set.photographs.size(), 5u) << to_string(calibrated->problems);
+  const double shared = focal_px(calibrated->set.photographs[0].lens).x;
+  for (const Photograph& photograph : calibrated->set.photographs) {
+    const double focal = focal_px(photograph.lens).x;
+    if (photograph.name == "place_2.png")
+      EXPECT_NEAR(focal / shared, 600.0 / 480.0, 0.02 * 600.0 / 480.0);
+    else
+      EXPECT_EQ(focal, shared) << photograph.name;
+  }
+}
+
+TEST(Calibrate, TheSamePhotographsGiveTheSameCameras) {
+  const TestFolder folder;
+  if (!has_colmap(folder)) GTEST_SKIP() << "colmap is not installed";
+  CalibrationJob job;
+  job.pictures = written_photographs(folder, 6, false);
+  job.max_features = 1500;
+  std::vector<std::string> written;
+  for (const char* name : {"once", "twice"}) {
+    job.folder = folder.path() / name;
+    const auto calibrated = calibrate(job);
+    ASSERT_TRUE(calibrated) << to_string(calibrated.errors());
+    for (const char* file : {"cameras.bin", "images.bin", "points3D.bin"}) {
+      const auto bytes = read_file(job.folder / file);
+      ASSERT_TRUE(bytes) << to_string(bytes.errors());
+      written.push_back(*bytes);
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(written[i], written[i + 3]) << i;
+}
+
 TEST(Calibrate, KeepsAFileOfMasksThatCannotBeRead) {
   const TestFolder folder;
   const auto pictures = folder.path() / "pictures", file = folder.path() / "out" / "photographs.json";

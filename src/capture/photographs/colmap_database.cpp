@@ -1,5 +1,6 @@
 #include "capture/photographs/colmap_database.h"
 
+#include <fmt/format.h>
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -122,6 +123,27 @@ std::map<std::string, int> best_agreement(const std::filesystem::path& database)
         best[name->second] = std::max(best[name->second], sqlite3_column_int(row, 1));
   });
   return best;
+}
+
+Status number_by_name(const std::filesystem::path& database) {
+  sqlite3* opened = nullptr;
+  const int code = sqlite3_open_v2(database.c_str(), &opened, SQLITE_OPEN_READWRITE, nullptr);
+  const std::unique_ptr<sqlite3, int (*)(sqlite3*)> connection(opened, sqlite3_close);
+  if (code != SQLITE_OK) return error("{}: cannot be opened ({})", database.string(), sqlite3_errmsg(opened));
+  sqlite3_busy_timeout(opened, 10000);
+  // By way of numbers beyond all others, since each must be unique at all times.
+  std::string text =
+      "BEGIN;CREATE TEMP TABLE numbers AS SELECT image_id AS old, "
+      "ROW_NUMBER() OVER (ORDER BY name) AS new FROM images;";
+  for (const char* table : {"images", "keypoints", "descriptors"})
+    text += fmt::format(
+        "UPDATE {0} SET image_id={1}+(SELECT new FROM numbers WHERE old=image_id);"
+        "UPDATE {0} SET image_id=image_id-{1};",
+        table, max_images / 2);
+  text += "COMMIT;";
+  if (sqlite3_exec(opened, text.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
+    return error("{}: its pictures cannot be numbered ({})", database.string(), sqlite3_errmsg(opened));
+  return Done{};
 }
 
 }  // namespace parvis::photographs

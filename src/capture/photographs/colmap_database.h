@@ -1,4 +1,5 @@
-// What COLMAP's database says about work in progress (https://colmap.github.io/database.html): read only.
+// What COLMAP's database says about work in progress (https://colmap.github.io/database.html), and in which
+// order it numbers pictures.
 #pragma once
 
 #include <filesystem>
@@ -6,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "capture/photographs/picture_pairs.h"
 
 namespace parvis::photographs {
@@ -25,5 +27,10 @@ std::vector<PictureFeatures> picture_features(const std::filesystem::path& datab
 /// For each picture the most features that agree, by one geometry, with another picture; 0 where it agrees
 /// with none.
 std::map<std::string, int> best_agreement(const std::filesystem::path& database);
+
+/// Numbers the pictures, and their features, by the order of their names. COLMAP numbers them as its threads
+/// happen to finish them, and what it makes of them depends on the numbers. To be done before features are
+/// matched. Errors: the database cannot be written.
+Status number_by_name(const std::filesystem::path& database);
 
 }  // namespace parvis::photographs

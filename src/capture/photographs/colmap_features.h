@@ -13,16 +13,17 @@ namespace parvis::photographs {
 /// What COLMAP is to work on.
 struct FeatureJob {
   std::filesystem::path pictures;  ///< folder of the photographs
-  std::filesystem::path list;      ///< file with their names, one per line
+  std::filesystem::path list;      ///< file that names the photographs at work, one per line; is written
   std::filesystem::path database;  ///< COLMAP's, which is made or gone on with
   std::string lens;                ///< COLMAP's camera model
-  bool one_lens = true;            ///< for all of them
-  int max_features = 4000;         ///< per photograph
+  std::vector<std::vector<std::string>> groups;  ///< names of photographs that share one lens
+  std::vector<std::string> alone;                ///< of those that have a lens each
+  int max_features = 4000;                       ///< per photograph
 };
 
-/// Finds the features of `count` photographs with a progress bar; COLMAP's output goes to `log`. Errors:
-/// COLMAP missing or failed.
-Status find_features(const FeatureJob& job, std::size_t count, const std::filesystem::path& log);
+/// Finds the features of the photographs with a progress bar; COLMAP's output goes to `log`. The photographs
+/// are numbered by the order of their names, whichever was finished first. Errors: COLMAP missing or failed.
+Status find_features(const FeatureJob& job, const std::filesystem::path& log);
 
 /// Runs one stage of COLMAP with a progress bar that `done` of `total` moves.
 Status run_stage(const std::string& what, std::size_t total, const std::function<std::size_t()>& done,

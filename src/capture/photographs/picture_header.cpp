@@ -88,6 +88,7 @@ void read_exif(std::string_view segment, PictureHeader& header) {
   const std::size_t directory = tiff.number(4, 4);
   const double orientation = tiff.value(directory, 0x0112);
   if (orientation >= 1.0 && orientation <= 8.0) header.orientation = int(orientation);
+  header.camera = tiff.text(directory, 0x0110);
   const std::size_t camera = std::size_t(tiff.value(directory, 0x8769));
   if (camera == 0) return;
   header.focal_length_mm = tiff.value(camera, 0x920a);

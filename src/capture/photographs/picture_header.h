@@ -13,7 +13,8 @@ namespace parvis::photographs {
 struct PictureHeader {
   int width = 0, height = 0;  ///< as stored, before `orientation`
   int orientation =
-      1;  ///< EXIF: 1 as stored, 3 upside down, 6 and 8 turned by a quarter; 2, 4, 5, 7 mirrored
+      1;               ///< EXIF: 1 as stored, 3 upside down, 6 and 8 turned by a quarter; 2, 4, 5, 7 mirrored
+  std::string camera;  ///< EXIF: the model's name; empty: not given
   double focal_length_mm = 0.0;       ///< EXIF; 0: not given
   double focal_length_35mm_mm = 0.0;  ///< EXIF: as on film 36 mm wide; 0: not given
   std::string taken;  ///< EXIF, by the camera's clock: "2026:06:21 14:15:00"; empty: not given
