@@ -7,6 +7,7 @@
 #include "base/image_io.h"
 #include "base/parallel.h"
 #include "capture/photographs/colmap_set.h"
+#include "capture/photographs/picture.h"
 
 namespace parvis::trees {
 namespace {
@@ -73,12 +74,6 @@ Result<std::vector<TreeView>> read_capture(const std::filesystem::path& folder) 
   std::vector<TreeView> views(photos.size());
   std::vector<Errors> own(photos.size());
   parallel_for(photos.size(), [&](std::size_t i) {
-    if (!photographs::is_pinhole(photos[i].lens)) {
-      own[i].push_back(
-          error("{}: its lens has distortion; undistort the photographs first (colmap image_undistorter)",
-                photos[i].name));
-      return;
-    }
     Result<Image8> picture = read_image8(photos[i].file);
     if (!picture) {
       own[i] = picture.errors();
@@ -86,7 +81,9 @@ Result<std::vector<TreeView>> read_capture(const std::filesystem::path& folder) 
     }
     if (const std::string problem = problem_of(photos[i], *picture); !problem.empty())
       own[i].push_back(error("{}: {}", photos[i].name, problem));
-    views[i] = {photos[i].name, pinhole_of_photograph(photos[i]), *std::move(picture)};
+    if (!own[i].empty()) return;
+    photographs::Picture straight = photographs::undistorted(photos[i], *std::move(picture));
+    views[i] = {photos[i].name, pinhole_of_photograph(straight.photograph), std::move(straight.image)};
   });
   for (const Errors& errors : own) problems.insert(problems.end(), errors.begin(), errors.end());
   if (!problems.empty()) return problems;

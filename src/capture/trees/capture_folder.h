@@ -17,8 +17,9 @@ Status write_capture(const std::filesystem::path& folder, std::span<const TreeVi
 /// Writes the model alone, for pictures NAME.png that lie in the folder.
 Status write_cameras(const std::filesystem::path& folder, std::span<const TreeView> views);
 
-/// Reads the views of a folder, ordered by name. All that is wrong is reported at once, by photograph: a
-/// missing picture, a size other than the camera's, a lens with distortion, a matte that is all 0 or all 255.
+/// Reads the views of a folder, ordered by name, freed from their lenses' distortion. All that is wrong is
+/// reported at once, by photograph: a missing picture, a size other than the camera's, a matte that is all 0
+/// or all 255.
 Result<std::vector<TreeView>> read_capture(const std::filesystem::path& folder);
 
 }  // namespace parvis::trees

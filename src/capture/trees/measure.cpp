@@ -51,17 +51,20 @@ float projected_area(const TreeVolume& volume, int axis) {
   return area;
 }
 
-/// Leaves per band: twice the extinction, over the band's share of the crown.
-std::vector<float> leaf_area_density(const TreeVolume& volume, const TreeOutline& outline) {
+/// Leaves per band: twice the extinction, over the band's share of the crown. What is below the crown is
+/// trunk.
+std::vector<float> leaf_area_density(const TreeVolume& volume, const TreeOutline& outline,
+                                     float crown_base_m) {
   const glm::vec3 size = volume.grid.cell_size_m();
   const float step = outline.slice_height_m(), height = outline.top_m - outline.foot_m;
   std::vector<float> leaves(density_bands, 0.0f), space(density_bands, 0.0f);
   for (std::size_t i = 0; i < volume.grid.size(); ++i) {
-    const float up = (volume.grid.centre(i).z - outline.foot_m) / height;
-    leaves[std::size_t(std::clamp(int(up * density_bands), 0, density_bands - 1))] +=
+    const float up_m = volume.grid.centre(i).z - outline.foot_m;
+    if (up_m < crown_base_m) continue;
+    leaves[std::size_t(std::clamp(int(up_m / height * density_bands), 0, density_bands - 1))] +=
         2.0f * volume.extinction_per_m[i] * size.x * size.y * size.z;
   }
-  for (int i = 0; i < slices; ++i)
+  for (int i = int(std::lround(crown_base_m / step)); i < slices; ++i)
     space[std::size_t(i * density_bands / slices)] += step * outline.slices[std::size_t(i)].hull_area_m2();
   for (std::size_t band = 0; band < space.size(); ++band)
     leaves[band] = space[band] > 0.0f ? leaves[band] / space[band] : 0.0f;
@@ -88,7 +91,7 @@ TreeMeasures measured(const TreeVolume& volume, float min_alpha) {
   TreeMeasures result = outline_measures(outline);
   if (outline.slices.empty()) return result;
   result.projected_area_m2 = 0.5f * (projected_area(volume, 0) + projected_area(volume, 1));
-  result.leaf_area_density_per_m = leaf_area_density(volume, outline);
+  result.leaf_area_density_per_m = leaf_area_density(volume, outline, result.crown_base_m);
   return result;
 }
 

@@ -17,8 +17,8 @@ struct TreeMeasures {
   float crown_volume_m3 = 0.0f;    ///< convex hulls of slices of 1/40 of the height: tree_outline.h
   float projected_area_m2 = 0.0f;  ///< opaque area seen from the side, mean of two horizontal directions
   float trunk_diameter_m = 0.0f;   ///< the narrowest slice below a fifth of the height, the foot left out
-  std::vector<float>
-      leaf_area_density_per_m;  ///< m2 of leaves (one side) per m3 of crown, per tenth of the height
+  std::vector<float> leaf_area_density_per_m;  ///< m2 of leaves (one side) per m3 of crown, per tenth of the
+                                               ///< height; 0 below the crown's base, where the trunk is
 };
 
 /// Of a volume: the tree is where its cells stop at least `min_alpha` of the light that passes them together,

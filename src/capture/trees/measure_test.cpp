@@ -40,6 +40,10 @@ TEST(Measure, KnowsASimpleTree) {
   EXPECT_NEAR(m.crown_volume_m3, 4.0f / 3.0f * 3.1416f * 3.375f, 0.1f * 14.1f);
   EXPECT_NEAR(m.projected_area_m2, 3.1416f * 2.25f + 0.4f * 2.0f, 0.15f * 7.9f);
   ASSERT_EQ(m.leaf_area_density_per_m.size(), 10u);
+  for (std::size_t band = 0; band < 3; ++band)
+    EXPECT_EQ(m.leaf_area_density_per_m[band], 0.0f) << "a trunk has no leaves";
+  for (std::size_t band = 4; band < 10; ++band)
+    EXPECT_NEAR(m.leaf_area_density_per_m[band], 12.0f, 1.5f) << band;  // twice the extinction
 }
 
 /// The volume as from cameras whose distances are wrong by a factor.
