@@ -25,7 +25,7 @@ namespace {
 struct MontageArguments {
   SceneArguments scene;
   std::filesystem::path photograph, cameras, points, in_front, output = "montage.png", report;
-  std::string design, date, hour;
+  std::string design, date, hour, grey;
   std::optional<double> clock_h, brightness;
   bool is_without_caption = false;
 };
@@ -148,6 +148,11 @@ Result<photomontage::MontageJob> job_of(const MontageArguments& arguments,
   if (!picture) return picture.errors();
   job.picture = *std::move(picture);
   job.brightness = arguments.brightness;
+  if (!arguments.grey.empty()) {
+    const std::vector<double> numbers = scene::parse_numbers(arguments.grey);
+    if (numbers.size() != 2) return error("--grey {}: expected a pixel, as 320,200", arguments.grey);
+    job.grey = glm::ivec2(glm::clamp(glm::dvec2(numbers[0], numbers[1]), -1.0, 1e6));
+  }
   if (!arguments.in_front.empty()) {
     const Result<Image8> mask = read_image8(arguments.in_front);
     if (!mask) return mask.errors();

@@ -782,6 +782,78 @@ class CurvedMirrors(BeforeAMirror):
             self.assertEqual(middle, right)
 
 
+class Photomontages(InAFolder):
+    """A design in a photograph, whose camera six clicked points tell."""
+
+    SCENE = """dayLight(latitude=43.70, longitude=7.27, standardMeridian=2, julianDay=1, timeOfDay=12)
+skyDome()
+model(name="floor", file="floor.obj", up=z)
+design(name="stone") { placed(name=bench, kind=bench_stone, position="0 0 0", heading_deg=180) }
+camera(name="street", position="0 -8 3", target="0 0 0.5", fov_deg=50)
+"""
+    POINTS = [(-3, -2, 0), (3, -2, 0), (-3, 3, 0), (3, 3, 0), (-2, 2, 2), (2.5, -1, 1.5), (0, 0, 0)]
+
+    def write_place(self):
+        (self.folder / "floor.obj").write_text("v -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nf 1 2 3 4\n")
+        scene = self.folder / "court.xp"
+        scene.write_text(self.SCENE)
+        bare = self.folder / "bare.xp"
+        bare.write_text(self.SCENE.replace('design(name="stone")', 'design(name="stone", visible=0)'))
+        photo = self.folder / "photo.png"
+        done = run("render", bare, "--size", "320x240", "-o", photo)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return scene, photo
+
+    def clicks(self):
+        """Where the scene's camera shows the points: it looks from (0, -8, 3) to (0, 0, 0.5)."""
+        length = math.hypot(8, 2.5)
+        forward, up = (8 / length, -2.5 / length), (2.5 / length, 8 / length)
+        focal = 160 / math.tan(math.radians(25))
+        lines = []
+        for x, y, z in self.POINTS:
+            depth, height = (y + 8) * forward[0] + (z - 3) * forward[1], (y + 8) * up[0] + (z - 3) * up[1]
+            lines.append(f"{160 + focal * x / depth} {120 - focal * height / depth} {x} {y} {z}\n")
+        return lines
+
+    def test_a_design_by_clicked_points(self):
+        scene, photo = self.write_place()
+        points, report, montage = (self.folder / name for name in ("points.txt", "report.json", "montage.png"))
+        points.write_text("".join(self.clicks()))
+        done = run("photomontage", photo, scene, "--points", points, "--date", "2026-06-21", "--hour", "10:30",
+                   "--report", report, "-o", montage)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = json.loads(report.read_text())
+        for found, true in zip(told["camera"]["position"], (0, -8, 3)):
+            self.assertAlmostEqual(found, true, delta=0.02)
+        self.assertIn("1 x Stone bench", told["caption"])
+        self.assertIn("2026-06-21, 10:30", told["caption"])
+        self.assertGreater(told["covered_fraction"], 0.002)
+        self.assertGreater(told["shaded_fraction"], 0.002)
+        self.assertTrue(montage.read_bytes().startswith(b"\x89PNG"))
+
+    def test_bad_input_is_answered(self):
+        scene, photo = self.write_place()
+        points = self.folder / "points.txt"
+        cut = self.folder / "cut.png"
+        cut.write_bytes(photo.read_bytes()[:200])
+        clicks = self.clicks()
+        for text, arguments, answer in (
+                ("".join(clicks[:4]), (photo, scene, "--points", points), "takes 6 at least"),
+                ("1 2 3\n", (photo, scene, "--points", points), "points.txt:1"),
+                ("".join(clicks[:6]) + "310 5 0 0 0\n", (photo, scene, "--points", points), "no camera explains the points"),
+                ("", (photo, scene), "the photograph's camera is not given"),
+                ("", (cut, scene, "--camera", "street"), "cut.png"),
+                ("", (photo, scene, "--camera", "street", "--date", "2026-06-21"), "--date and --hour go together"),
+                ("", (photo, scene, "--camera", "street", "--date", "21.6.2026", "--hour", "10:30"), "expected a day"),
+                ("", (photo, scene, "--camera", "street", "--design", "ston"), "no design"),
+                ("", (photo, scene, "--camera", "street", "-o", photo), "photo.png")):
+            points.write_text(text)
+            done = run("photomontage", *arguments)
+            self.assertEqual(done.returncode, 1, answer)
+            self.assertIn(answer, done.stderr)
+            self.assertFalse((self.folder / "montage.png").exists())
+
+
 class Plans(InAFolder):
     """A drawing under a place, and the place as a plan."""
 

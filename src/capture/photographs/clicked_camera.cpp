@@ -98,7 +98,7 @@ void add_linear_estimate(const Problem& problem, std::vector<Estimate>& estimate
 }
 
 /// By the homography of the plane that fits the points best, for some focal lengths: of points on the ground
-/// alone the linear one tells nothing.
+/// alone the linear one finds nothing.
 void add_plane_estimates(const Problem& problem, std::vector<Estimate>& estimates) {
   MatrixXd spread(problem.places.size(), 3);
   for (std::size_t i = 0; i < problem.places.size(); ++i) spread.row(Eigen::Index(i)) = problem.places[i];
@@ -225,6 +225,55 @@ Status expect_spread(const Problem& problem) {
   return Done{};
 }
 
+/// The best camera of the points; nothing where none has all of them before it.
+std::optional<ClickedCamera> best_camera(std::span<const ClickedPoint> points, const Problem& problem) {
+  std::vector<Estimate> estimates;
+  add_linear_estimate(problem, estimates);
+  add_plane_estimates(problem, estimates);
+  std::optional<ClickedCamera> best;
+  double best_cost = 0.0;
+  for (const Estimate& estimate : estimates) {
+    const Residuals residuals{problem, estimate};
+    const Refined refined = refine(residuals, problem);
+    if (!refined.sees_all || (best && refined.cost >= best_cost)) continue;
+    best_cost = refined.cost;
+    best = ClickedCamera{photograph_of(residuals, refined.x, problem), {}};
+  }
+  if (best)
+    for (const ClickedPoint& each : points) {
+      const std::optional<glm::dvec2> at = pixel_of_world(best->photograph, each.position_in_world);
+      best->errors_px.push_back(at ? glm::distance(*at, each.pixel) : problem.width);
+    }
+  return best;
+}
+
+bool fits(const std::optional<ClickedCamera>& camera, int width) {
+  return camera && std::ranges::max(camera->errors_px) <= max_error_of_width * width;
+}
+
+/// Why no camera fits: the point without which one does, where there is such a point.
+Error no_camera(std::span<const ClickedPoint> points, int width, int height, std::optional<double> focal_px) {
+  for (std::size_t i = 0; points.size() > min_clicked_points && i < points.size(); ++i) {
+    std::vector<ClickedPoint> others(points.begin(), points.end());
+    others.erase(others.begin() + std::ptrdiff_t(i));
+    const std::optional<ClickedCamera> camera =
+        best_camera(others, problem_of(others, width, height, focal_px));
+    if (!fits(camera, width)) continue;
+    const std::optional<glm::dvec2> at = pixel_of_world(camera->photograph, points[i].position_in_world);
+    return error(
+        "no camera explains the points: point {} (at {:.0f},{:.0f}) does not fit the others{}; is it another "
+        "point of "
+        "the place?",
+        i + 1, points[i].pixel.x, points[i].pixel.y,
+        at ? fmt::format(", which show it at {:.0f},{:.0f}", at->x, at->y)
+           : ", which have it behind the camera");
+  }
+  return error(
+      "no camera explains the points; is one of them another point of the place, or the picture of another "
+      "size? "
+      "Seven points or more show which");
+}
+
 }  // namespace
 
 Result<std::vector<ClickedPoint>> parse_clicked_points(std::string_view text, const std::string& name) {
@@ -268,32 +317,9 @@ Result<ClickedCamera> camera_of_points(std::span<const ClickedPoint> points, int
                  min_clicked_points);
   const Problem problem = problem_of(points, width, height, focal_px);
   if (Status status = expect_spread(problem); !status) return status.errors();
-  std::vector<Estimate> estimates;
-  add_linear_estimate(problem, estimates);
-  add_plane_estimates(problem, estimates);
-  std::optional<ClickedCamera> best;
-  double best_cost = 0.0;
-  for (const Estimate& estimate : estimates) {
-    const Residuals residuals{problem, estimate};
-    const Refined refined = refine(residuals, problem);
-    if (!refined.sees_all || (best && refined.cost >= best_cost)) continue;
-    best_cost = refined.cost;
-    best = ClickedCamera{photograph_of(residuals, refined.x, problem), {}};
-  }
-  if (!best) return error("no camera has all points before it; is a point's number wrong?");
-  std::size_t worst = 0;
-  for (const ClickedPoint& each : points) {
-    const std::optional<glm::dvec2> at = pixel_of_world(best->photograph, each.position_in_world);
-    best->errors_px.push_back(at ? glm::distance(*at, each.pixel) : double(width));
-    if (best->errors_px.back() > best->errors_px[worst]) worst = best->errors_px.size() - 1;
-  }
-  if (best->errors_px[worst] > max_error_of_width * width)
-    return error(
-        "no camera explains the points: point {} (at {:.0f},{:.0f}) would lie {:.0f} pixels from its click; "
-        "is "
-        "it another point of the place, or another picture size?",
-        worst + 1, points[worst].pixel.x, points[worst].pixel.y, best->errors_px[worst]);
-  return *std::move(best);
+  std::optional<ClickedCamera> camera = best_camera(points, problem);
+  if (!fits(camera, width)) return no_camera(points, width, height, focal_px);
+  return *std::move(camera);
 }
 
 }  // namespace parvis::photographs

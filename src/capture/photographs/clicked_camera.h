@@ -35,8 +35,8 @@ struct ClickedCamera {
 /// distortion; `focal_px`, where it is known (EXIF), is off by some hundredths. First estimates are the
 /// direct linear transformation and the homography of the points' plane (Hartley and Zisserman 2004,
 /// sections 7.1 and 8.1.1), for points may lie on the ground alone; Levenberg and Marquardt's method refines
-/// each. Errors: fewer than six points, points on a line, no camera that has all of them before it, clicks
-/// that no camera explains (the worst is named).
+/// each. Errors: fewer than six points, points on a
+/// line, points that no camera explains (of seven or more, the one that does not fit the others is named).
 Result<ClickedCamera> camera_of_points(std::span<const ClickedPoint> points, int width, int height,
                                        std::optional<double> focal_px = std::nullopt);
 

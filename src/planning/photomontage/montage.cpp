@@ -14,10 +14,10 @@
 namespace parvis::photomontage {
 namespace {
 
-constexpr float most_ratio = 4.0f;        ///< of light with the design over light without
+constexpr float max_ratio = 4.0f;         ///< of light with the design over light without
 constexpr float seen_change = 0.01f;      ///< of that ratio
 constexpr float darkest = 1e-4f;          ///< radiance times brightness below which a ratio means nothing
-constexpr float nearer_by = 1.0f / 1024;  ///< fraction of a distance that tells two surfaces apart
+constexpr float nearer_by = 1.0f / 1024;  ///< fraction of a distance that separates two surfaces
 
 /// The scene as it is traced at one time, from the photograph's place.
 struct Traced {
@@ -92,13 +92,32 @@ Result<double> brightness_of(const MontageJob& job, const ImageF& photograph, co
   return std::exp(logarithms[logarithms.size() / 2]);
 }
 
+/// Colour of the photograph's light, of luminance 1: the mean about the grey pixel.
+Result<glm::vec3> light_colour(const MontageJob& job, const ImageF& photograph) {
+  if (!job.grey) return glm::vec3(1.0f);
+  if (job.grey->x < 0 || job.grey->y < 0 || job.grey->x >= photograph.width ||
+      job.grey->y >= photograph.height)
+    return error("the grey pixel {},{} lies outside of the photograph, which has {} x {}", job.grey->x,
+                 job.grey->y, photograph.width, photograph.height);
+  constexpr int reach = 2;
+  glm::vec3 sum(0.0f);
+  for (int y = std::max(job.grey->y - reach, 0); y <= std::min(job.grey->y + reach, photograph.height - 1);
+       ++y)
+    for (int x = std::max(job.grey->x - reach, 0); x <= std::min(job.grey->x + reach, photograph.width - 1);
+         ++x)
+      sum += colour_at(photograph, x, y);
+  if (luminance(sum) <= 0.0f)
+    return error("the grey pixel {},{} is black; choose one that is lit", job.grey->x, job.grey->y);
+  return sum / luminance(sum);
+}
+
 /// Sums of a pixel's pieces.
 struct Pixel {
   glm::vec3 light{0.0f};
   int pieces = 0, covered = 0, shaded = 0;
 };
 
-Pixel composed(const MontageJob& job, const Pieces& pieces, glm::vec3 photograph, float brightness,
+Pixel composed(const MontageJob& job, const Pieces& pieces, glm::vec3 photograph, glm::vec3 brightness,
                const Traced& with, const Traced& without, int x, int y) {
   Pixel pixel;
   pieces.each(job.photograph.lens, x, y, [&](int u, int v) {
@@ -110,7 +129,7 @@ Pixel composed(const MontageJob& job, const Pieces& pieces, glm::vec3 photograph
       ++pixel.covered;
       return;
     }
-    const glm::vec3 ratio = glm::min((lit + darkest) / (before + darkest), glm::vec3(most_ratio));
+    const glm::vec3 ratio = glm::min((lit + darkest) / (before + darkest), glm::vec3(max_ratio));
     const bool is_changed = glm::length(ratio - 1.0f) > seen_change;
     pixel.shaded += is_changed;
     pixel.light += is_changed ? photograph * ratio : photograph;
@@ -149,6 +168,9 @@ Result<Montage> make_montage(house::Stage& stage, const MontageJob& job) {
   const ImageF photograph = linear_from_srgb8(job.picture);
   const Result<double> brightness = brightness_of(job, photograph, pieces, with, without);
   if (!brightness) return brightness.errors();
+  const Result<glm::vec3> colour = light_colour(job, photograph);
+  if (!colour) return colour.errors();
+  const glm::vec3 scaled = float(*brightness) * *colour;
   Montage montage{Image8(lens.width, lens.height, 3), *brightness};
   std::vector<glm::dvec2> rows(std::size_t(lens.height), glm::dvec2(0.0));  // covered, shaded
   parallel_for(std::size_t(lens.height), [&](std::size_t row) {
@@ -157,8 +179,7 @@ Result<Montage> make_montage(house::Stage& stage, const MontageJob& job) {
       const std::uint8_t* shown = job.picture.at(x, y);
       std::uint8_t* out = montage.picture.at(x, y);
       std::copy_n(shown, 3, out);
-      const Pixel pixel =
-          composed(job, pieces, colour_at(photograph, x, y), float(*brightness), with, without, x, y);
+      const Pixel pixel = composed(job, pieces, colour_at(photograph, x, y), scaled, with, without, x, y);
       if (pixel.covered + pixel.shaded == 0) continue;
       rows[row] += glm::dvec2(pixel.covered, pixel.shaded) / double(pixel.pieces);
       const float hidden = job.in_front.empty() ? 0.0f : float(*job.in_front.at(x, y)) / 255.0f;
