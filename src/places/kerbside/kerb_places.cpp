@@ -11,6 +11,7 @@ namespace {
 using glm::vec2, glm::vec3;
 
 constexpr float before_crossing_m = 7.0f;
+constexpr float fastest_m_s = 22.5f;  // 81 km/h: along motorways and their like nothing stands, nor parks
 constexpr float wide_lane_m = 4.8f;   // a car stands beside the kerb and another passes it
 constexpr float from_kerb_m = 1.05f;  // of the middle of a car on such a lane
 
@@ -52,7 +53,7 @@ std::vector<KerbPlace> take_kerb_places(const scene::RoadGraph& roads, const Ker
   std::vector<KerbPlace> places;
   Random random(series.seed, 301);
   for (const scene::Lane& lane : roads.lanes) {
-    if (lane.crossing >= 0) continue;
+    if (lane.crossing >= 0 || lane.speed_limit > fastest_m_s) continue;
     const bool is_on_lane = series.stands_on_wide_lanes && lane.width_m >= wide_lane_m;
     const float beside_m = 0.5f * lane.width_m + (is_on_lane ? -from_kerb_m : series.beside_m);
     const float end_m = before_crossing_m + series.half_length_m;

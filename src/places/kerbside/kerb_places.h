@@ -39,7 +39,7 @@ struct KerbPlace {
 };
 
 /// The places of a series that are free, each of which is taken at once. Ends of lanes, where drivers look
-/// into crossings, stay free.
+/// into crossings, stay free; so do lanes of more than 81 km/h.
 std::vector<KerbPlace> take_kerb_places(const scene::RoadGraph& roads, const KerbSeries& series,
                                         FreeGround& ground);
 

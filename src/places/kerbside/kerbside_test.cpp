@@ -90,6 +90,24 @@ TEST_F(Kerbside, NothingStandsInGrownPlants) {
   EXPECT_EQ(close(load("parkedCars(share=1)\n" + planted)), 0) << "whatever the order";
 }
 
+TEST_F(Kerbside, NothingStandsAlongMotorways) {
+  const auto count = [&](int speed_km_h) {
+    const auto loaded = ScriptTest::load(
+        fmt::format("terrain_plane()\nroad(path=\"-100 0, 100 0\", speed_km_h={})\npaving()\n"
+                    "camera(name=\"eye\", position=\"0 -9 2\", target=\"0 0 1\")\n"
+                    "streetTrees()\nparkedCars()\nstreetFurniture(kind=\"lamps\")\n",
+                    speed_km_h));
+    EXPECT_TRUE(loaded) << to_string(loaded.errors());
+    if (!loaded) return std::size_t(0);
+    std::size_t found = 0;
+    for (const char* name : {"street tree", "street lamp", "parked car"})
+      found += called(loaded->scene, name).size();
+    return found;
+  };
+  EXPECT_GT(count(80), 40u);
+  EXPECT_EQ(count(100), 0u);
+}
+
 TEST_F(Kerbside, NothingStandsInTunnels) {
   const auto lamps = [&](const char* tunnel) {
     std::string map =

@@ -104,7 +104,9 @@ scene::NodeSchema street_trees_schema() {
   using namespace scene::attribute;
   return {
       .type = "streetTrees",
-      .help = "Trees along both kerbs of every street, where neither walls nor anything else is in the way.",
+      .help =
+          "Trees along both kerbs of every street of at most 80 km/h, where neither walls nor anything else "
+          "is in the way.",
       .attributes =
           {of_attribute("trees of `height`"),
            choice("kind", "light trees of the paper's city, or grown plants (plant) with every leaf",
@@ -145,7 +147,8 @@ scene::NodeSchema parked_cars_schema() {
   return {
       .type = "parkedCars",
       .help =
-          "Cars parked along the kerbs of every street: on lanes of 4.8 m and more, else beside the lane. "
+          "Cars parked along the kerbs of every street of at most 80 km/h: on lanes of 4.8 m and more, else "
+          "beside the lane. "
           "They take reflections.",
       .attributes = {of_attribute("cars of the paper's city"),
                      number("share", "of the places that are taken").between(0, 1).by_default("0.6"),
@@ -177,19 +180,19 @@ scene::NodeSchema street_furniture_schema() {
   using namespace scene::attribute;
   std::vector<std::string> kinds;
   for (const FurnitureKind& kind : furniture_kinds()) kinds.push_back(kind.name);
-  return {
-      .type = "streetFurniture",
-      .help =
-          "Lamps, benches, bins or bollards along both kerbs of every street. A lamp(of=\"street lamp *\") "
-          "lights the lamps.",
-      .attributes = {choice("kind", "what stands there", kinds).by_default("lamps"),
-                     of_attribute("generated ones"),
-                     spacing_attribute("between two of them; else what is usual for the kind", 1),
-                     seed_attribute()},
-      .example =
-          "road(path=\"0 0, 120 0\")\nstreetFurniture(kind=\"lamps\")\n"
-          "lamp(of=\"street lamp *\", position=\"0 0 4.45\", flux_lm=5000)",
-      .is_laid_out_once = true};
+  return {.type = "streetFurniture",
+          .help =
+              "Lamps, benches, bins or bollards along both kerbs of every street of at most 80 km/h. A "
+              "lamp(of=\"street lamp *\") "
+              "lights the lamps.",
+          .attributes = {choice("kind", "what stands there", kinds).by_default("lamps"),
+                         of_attribute("generated ones"),
+                         spacing_attribute("between two of them; else what is usual for the kind", 1),
+                         seed_attribute()},
+          .example =
+              "road(path=\"0 0, 120 0\")\nstreetFurniture(kind=\"lamps\")\n"
+              "lamp(of=\"street lamp *\", position=\"0 0 4.45\", flux_lm=5000)",
+          .is_laid_out_once = true};
 }
 
 void build_street_furniture(const scene::Node& node, scene::SceneBuilder& builder) {
