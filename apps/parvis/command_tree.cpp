@@ -17,7 +17,6 @@
 #include "capture/trees/matte_folder.h"
 #include "capture/trees/measure.h"
 #include "capture/trees/organs.h"
-#include "capture/trees/processes.h"
 #include "capture/trees/reconstruction.h"
 #include "capture/trees/sample_trees.h"
 #include "capture/trees/shown_tree.h"
@@ -143,22 +142,22 @@ Status reconstruct(ReconstructArguments arguments) {
   const Result<std::vector<trees::TreeView>> views = trees::read_capture(arguments.capture);
   if (!views) return views.errors();
   if (arguments.is_octree) arguments.options.grid.branching = 2;
-  const Result<trees::MpiSession> session = trees::MpiSession::join();
-  if (!session) return session.errors();
-  arguments.options.processes = session->processes();
+  const Result<machines::Processes> processes = machines::Processes::join();
+  if (!processes) return processes.errors();
+  arguments.options.processes = *processes;
   const KeptParts checkpoint = checkpoint_of(arguments.output);
   arguments.options.checkpoint = checkpoint.folder();
   arguments.options.is_interrupted = &interruption();
   const Result<trees::Reconstruction> made = trees::reconstruct(*views, arguments.options);
   if (!made) return made.errors();
-  if (arguments.options.processes.rank != 0) return Done{};  // all have the same cells
+  processes->leave();
+  if (!processes->is_first()) return Done{};  // all have the same cells
   for (const std::string& row : made->notes) fmt::print("{}\n", row);
   const Result<std::size_t> bytes = trees::write_volume(arguments.output, made->volume);
   if (!bytes) return bytes.errors();
   checkpoint.remove();
   fmt::print("{}: {} cells, {:.2f} MB, {} process{}\n", arguments.output.string(), made->volume.grid.size(),
-             double(*bytes) * 1e-6, arguments.options.processes.count,
-             arguments.options.processes.count == 1 ? "" : "es");
+             double(*bytes) * 1e-6, processes->count(), processes->are_several() ? "es" : "");
   return Done{};
 }
 

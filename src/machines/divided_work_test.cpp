@@ -6,6 +6,8 @@
 #include <numeric>
 #include <set>
 
+#include "machines/test_processes.h"
+
 namespace parvis::machines {
 namespace {
 
@@ -101,8 +103,24 @@ TEST(Processes, WithoutMpirunThereIsOne) {
   std::vector<float> values{1.0f, 2.0f};
   alone.sum(values);
   EXPECT_EQ(values, (std::vector<float>{1.0f, 2.0f}));
+  EXPECT_TRUE(alone.any_of(true));
+  EXPECT_FALSE(alone.any_of(false));
   alone.wait_for_all();
   alone.leave();
+}
+
+TEST(Processes, TogetherTheyShareAndAddUp) {
+  const auto found = in_two_processes([](const Processes& process) {
+    std::string bytes = process.is_first() ? "of the first" : "another";
+    process.share_of_first(bytes);
+    std::array<double, 2> values{1.0 + process.rank(), 5.0};
+    process.sum(std::span<double>(values));
+    EXPECT_EQ(values, (std::array{3.0, 10.0}));
+    EXPECT_TRUE(process.any_of(process.rank() == 1));
+    EXPECT_FALSE(process.any_of(false));
+    return bytes;
+  });
+  EXPECT_EQ(found, (std::array<std::string, 2>{"of the first", "of the first"}));
 }
 
 }  // namespace

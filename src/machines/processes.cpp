@@ -19,6 +19,14 @@ void share(void* bytes, std::size_t size) {
   wait_for(request);
 }
 
+template <class Value>
+void sum_of_all(std::span<Value> values, MPI_Datatype type) {
+  for (std::size_t first = 0; first < values.size(); first += max_per_call) {
+    const int count = int(std::min(max_per_call, values.size() - first));
+    MPI_Allreduce(MPI_IN_PLACE, values.data() + first, count, type, MPI_SUM, MPI_COMM_WORLD);
+  }
+}
+
 }  // namespace
 
 Result<Processes> Processes::join() {
@@ -47,6 +55,7 @@ void Processes::wait_for_all() const {
 
 void Processes::share_of_first(std::string& bytes) const {
   if (!are_several()) return;
+  if (collectives_) return collectives_->share_of_first(rank_, bytes);
   unsigned long long size = bytes.size();
   share(&size, sizeof size);
   bytes.resize(size);
@@ -55,11 +64,19 @@ void Processes::share_of_first(std::string& bytes) const {
 }
 
 void Processes::sum(std::span<float> values) const {
+  if (are_several()) sum_of_all(values, MPI_FLOAT);
+}
+
+void Processes::sum(std::span<double> values) const {
   if (!are_several()) return;
-  for (std::size_t first = 0; first < values.size(); first += max_per_call) {
-    const int count = int(std::min(max_per_call, values.size() - first));
-    MPI_Allreduce(MPI_IN_PLACE, values.data() + first, count, MPI_FLOAT, MPI_SUM, MPI_COMM_WORLD);
-  }
+  if (collectives_) return collectives_->sum(rank_, values);
+  sum_of_all(values, MPI_DOUBLE);
+}
+
+bool Processes::any_of(bool holds) const {
+  double count = holds ? 1.0 : 0.0;
+  sum(std::span(&count, 1));
+  return count > 0.0;
 }
 
 void Processes::leave() const {

@@ -10,6 +10,14 @@
 
 namespace parvis::machines {
 
+/// What processes do together, where it is not MPI that does it: tests have threads in place of processes.
+class Collectives {
+ public:
+  virtual ~Collectives() = default;
+  virtual void share_of_first(int rank, std::string& bytes) const = 0;
+  virtual void sum(int rank, std::span<double> values) const = 0;
+};
+
 /// This process among them. Made once in a program; all processes make the same calls in the same order.
 /// A process that ends before it calls `leave` (an error, a crash) makes mpirun end all others with status 1
 /// or more.
@@ -33,14 +41,21 @@ class Processes {
   /// The first process's bytes, in every process.
   void share_of_first(std::string& bytes) const;
   /// Adds up, element by element, what all processes have; each receives the sums. The order of summation is
-  /// MPI's: the last bits depend on the number of processes.
+  /// MPI's: the last bits depend on the number of processes, unless the sums are exact.
   void sum(std::span<float> values) const;
+  /// The same in double precision.
+  void sum(std::span<double> values) const;
+  /// True in every process where `holds` is true in any of them.
+  bool any_of(bool holds) const;
   /// Waits for all others and ends the membership: the work is done. Nothing may be called after it.
   void leave() const;
 
  private:
+  friend class ThreadProcesses;  // test_processes.h
+
   int rank_ = 0, count_ = 1;
   bool is_joined_ = false;
+  const Collectives* collectives_ = nullptr;  ///< null: MPI's
 };
 
 }  // namespace parvis::machines

@@ -6,8 +6,8 @@
 
 namespace parvis::trees {
 
-FitRows FitRows::of(const TreeView& view, int factor, const Processes& processes) {
-  FitRows result{reduced(view.camera, factor), {}, processes.rank, processes.count};
+FitRows FitRows::of(const TreeView& view, int factor, const machines::Processes& processes) {
+  FitRows result{reduced(view.camera, factor), {}, processes.rank(), processes.count()};
   const int width = result.camera.width,
             rows = std::max(result.camera.height - result.first + result.apart - 1, 0) / result.apart;
   result.rgba = ImageF(width, rows, 4);

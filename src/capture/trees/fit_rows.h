@@ -3,8 +3,8 @@
 #pragma once
 
 #include "base/image.h"
-#include "capture/trees/processes.h"
 #include "capture/trees/tree_view.h"
+#include "machines/processes.h"
 
 namespace parvis::trees {
 
@@ -16,7 +16,7 @@ struct FitRows {
   int first = 0, apart = 1;  ///< the rows' places in the photograph
 
   /// Of a view.
-  static FitRows of(const TreeView& view, int factor, const Processes& processes);
+  static FitRows of(const TreeView& view, int factor, const machines::Processes& processes);
   /// Where the i-th of them lies in the photograph.
   int row(int i) const { return first + i * apart; }
 };

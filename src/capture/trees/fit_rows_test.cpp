@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "machines/test_processes.h"
+
 namespace parvis::trees {
 namespace {
 
@@ -28,7 +30,7 @@ TEST(FitRows, ProcessesTogetherHoldEachRowOnce) {
       ASSERT_EQ(whole.rgba.height, whole.camera.height);
       std::vector<int> held(std::size_t(whole.rgba.height), 0);
       for (int rank = 0; rank < count; ++rank) {
-        const FitRows own = FitRows::of(view, factor, {rank, count});
+        const FitRows own = FitRows::of(view, factor, machines::ThreadProcesses::alone(rank, count));
         EXPECT_LE(own.rgba.height, whole.rgba.height / count + 1) << "its share, no more";
         for (int i = 0; i < own.rgba.height; ++i) {
           ASSERT_LT(own.row(i), whole.rgba.height);
@@ -52,7 +54,7 @@ TEST(FitRows, AreWeighedByAlphaInLinearLight) {
 }
 
 TEST(FitRows, MoreProcessesThanRowsLeaveSomeWithoutAny) {
-  EXPECT_EQ(FitRows::of(photograph(2, 2), 1, {2, 3}).rgba.height, 0);
+  EXPECT_EQ(FitRows::of(photograph(2, 2), 1, machines::ThreadProcesses::alone(2, 3)).rgba.height, 0);
 }
 
 }  // namespace

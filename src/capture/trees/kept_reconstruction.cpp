@@ -97,20 +97,19 @@ std::optional<FittedVolume> fitted_volume_of(std::string_view bytes) {
 
 StepKeeper::StepKeeper(const ReconstructionOptions& options)
     : options_(options),
-      checkpoint_(options.processes.rank == 0 ? options.checkpoint : std::filesystem::path()),
+      checkpoint_(options.processes.is_first() ? options.checkpoint : std::filesystem::path()),
       last_(std::chrono::steady_clock::now()) {}
 
 std::string StepKeeper::find(const KeptStep& step) const {
   if (options_.checkpoint.empty()) return "";
   std::string bytes = checkpoint_.find(step.name, step.key).value_or("");
-  share_of_first(options_.processes, bytes);
+  options_.processes.share_of_first(bytes);
   return bytes;
 }
 
 Status StepKeeper::keep(const KeptStep& step, bool is_finished, const std::function<std::string()>& content) {
   if (options_.checkpoint.empty() && !options_.is_interrupted) return Done{};
-  const bool is_interrupted =
-      holds_in_any(options_.processes, options_.is_interrupted && *options_.is_interrupted);
+  const bool is_interrupted = options_.processes.any_of(options_.is_interrupted && *options_.is_interrupted);
   const auto now = std::chrono::steady_clock::now();
   Status kept = Done{};
   if (checkpoint_.keeps_parts() &&
@@ -118,7 +117,7 @@ Status StepKeeper::keep(const KeptStep& step, bool is_finished, const std::funct
     kept = checkpoint_.keep(step.name, step.key, content());
     last_ = std::chrono::steady_clock::now();
   }
-  if (holds_in_any(options_.processes, !kept.ok()))
+  if (options_.processes.any_of(!kept.ok()))
     return error("{}; what was kept before is in {}, and the same command goes on from there",
                  kept ? "the first process cannot keep its work" : to_string(kept.errors().front()),
                  options_.checkpoint.string());

@@ -143,7 +143,7 @@ Sums gather(const Estimate& e, std::span<const Matte> mattes) {
   Sums all(2 * e.tau.size(), 0.0);
   for (const Sums& sums : partial)
     for (std::size_t i = 0; i < all.size(); ++i) all[i] += sums[i];
-  if (e.options.processes.sum) e.options.processes.sum(all);
+  e.options.processes.sum(std::span(all));
   return all;
 }
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "capture/trees/cell_grid.h"
-#include "capture/trees/processes.h"
 #include "capture/trees/visual_hull.h"
+#include "machines/processes.h"
 
 namespace parvis::trees {
 
@@ -42,9 +42,9 @@ struct OpacityOptions {
   int iterations = 20;
   bool clamps = true;  ///< `projection` only: t' <= 1; false: as the thesis prints it
   std::optional<float>
-      cutoff;                ///< transparency t above which a cell becomes empty after each iteration (4.5.2)
-  int picture_factor = 0;    ///< mattes are reduced so many times; 0: until a pixel is about half a cell
-  Processes processes = {};  ///< each takes its share of the photographs
+      cutoff;              ///< transparency t above which a cell becomes empty after each iteration (4.5.2)
+  int picture_factor = 0;  ///< mattes are reduced so many times; 0: until a pixel is about half a cell
+  machines::Processes processes = {};  ///< each takes its share of the photographs
   /// Called after each iteration; where it returns false the estimate ends.
   std::function<bool(const Opacities&)> after_iteration = {};
 };

@@ -23,7 +23,7 @@ struct ReconstructionOptions {
   int fine_epochs = 4;          ///< of the fit at one level more; 0: there is none
   float fine_smoothing =
       0.3f;  ///< of that fit (FitOptions::smoothing): by held-out error, docs/experiments/tree-smoothing.md
-  Processes processes = {};               ///< that share the work (MPI)
+  machines::Processes processes = {};     ///< that share the work (MPI)
   bool keeps_inconsistent = false;        ///< a photograph that contradicts all others; else it is left out
   std::filesystem::path checkpoint = {};  ///< folder for what is done, the caller's to remove; empty: none
   std::chrono::seconds keeping_interval{20};          ///< how much work a kill may cost

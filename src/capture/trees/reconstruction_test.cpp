@@ -3,17 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <barrier>
 #include <filesystem>
-#include <thread>
 
 #include "base/test_folder.h"
 #include "capture/trees/test_volume.h"
+#include "machines/test_processes.h"
 
 namespace parvis::trees {
 namespace {
+
+using machines::in_two_processes, machines::Processes;
 
 /// A ball whose colour changes with height, photographed from 10 places.
 const std::vector<TreeView>& photographs() {
@@ -40,37 +40,6 @@ Reconstruction reconstructed(const ReconstructionOptions& options) {
   Result<Reconstruction> result = reconstruct(photographs(), options);
   EXPECT_TRUE(result) << to_string(result.errors());
   return *std::move(result);
-}
-
-/// Two threads in the place of two processes: each waits for the other's sums.
-class Meeting {
- public:
-  Processes process(int rank) {
-    return {rank, 2, [this, rank](std::span<double> sums) {
-              sums_[std::size_t(rank)] = sums;
-              barrier_.arrive_and_wait();
-              std::vector<double> all(sums.size());
-              for (std::size_t i = 0; i < all.size(); ++i) all[i] = sums_[0][i] + sums_[1][i];
-              barrier_.arrive_and_wait();
-              std::ranges::copy(all, sums.begin());
-            }};
-  }
-
- private:
-  std::barrier<> barrier_{2};
-  std::array<std::span<double>, 2> sums_;
-};
-
-/// What `work` gives in each of two processes.
-template <class Work>
-auto in_two_processes(Work&& work) {
-  Meeting meeting;
-  std::array<decltype(work(meeting.process(0))), 2> results;
-  {
-    std::jthread other([&] { results[1] = work(meeting.process(1)); });
-    results[0] = work(meeting.process(0));
-  }
-  return results;
 }
 
 void expect_same(const Reconstruction& found, const Reconstruction& wanted) {
@@ -174,14 +143,14 @@ TEST(Reconstruction, TwoProcessesGoOnWhereTheFirstOneHasKeptTheWork) {
     ReconstructionOptions options = options_of(process, 3);
     options.grid.level = 2, options.cutoff = 0.95f, options.coarse_epochs = 1;
     // As of machines that share no disk.
-    options.checkpoint = folder.path() / ("of process " + std::to_string(process.rank));
+    options.checkpoint = folder.path() / ("of process " + std::to_string(process.rank()));
     return options;
   };
   for (int interruptions = 0; interruptions < 5; ++interruptions)
     for (const bool has_ended : in_two_processes([&](const Processes& process) {
            ReconstructionOptions options = kept_by(process);
            // The signal has reached the second one alone.
-           options.is_interrupted = process.rank == 1 ? &is_interrupted : &is_not_interrupted;
+           options.is_interrupted = process.rank() == 1 ? &is_interrupted : &is_not_interrupted;
            return !reconstruct(photographs(), options).ok();
          }))
       EXPECT_TRUE(has_ended) << "all end when one of them is interrupted";
@@ -194,22 +163,6 @@ TEST(Reconstruction, TwoProcessesGoOnWhereTheFirstOneHasKeptTheWork) {
     expect_same(found, whole);
     EXPECT_NE(found.notes[2].find("steps kept before: 3"), std::string::npos) << found.notes[2];
   }
-}
-
-TEST(Processes, TheFirstOnesBytesComeToAll) {
-  for (std::size_t count = 0; count < 10; ++count) {
-    std::string bytes;
-    for (std::size_t i = 0; i < count; ++i) bytes.push_back(char(251 - 17 * int(i)));
-    for (const std::string& shared : in_two_processes([&](const Processes& process) {
-           std::string own = process.rank == 0 ? bytes : "another";
-           share_of_first(process, own);
-           return own;
-         }))
-      EXPECT_EQ(shared, bytes) << count;
-  }
-  for (const bool holds :
-       in_two_processes([](const Processes& process) { return holds_in_any(process, process.rank == 1); }))
-    EXPECT_TRUE(holds);
 }
 
 TEST(Reconstruction, ThePhotographThatContradictsAllOthersIsNamedAndLeftOutUnlessItIsKept) {

@@ -156,7 +156,7 @@ class VolumeFit {
         },
         rows_per_task);
     double sum = errors.combine(std::plus<>());
-    if (options_.processes.sum) options_.processes.sum({&sum, 1});
+    options_.processes.sum(std::span(&sum, 1));
     return sum;
   }
 
@@ -184,13 +184,13 @@ class VolumeFit {
 
  private:
   void sum_over_processes() {
-    if (!options_.processes.sum) return;
+    if (!options_.processes.are_several()) return;
     Gradients& all = gradients_.local();
     for (Gradients& g : gradients_) {
       if (&g == &all) continue;
       for (std::size_t i = 0; i < all.size(); ++i) all[i] += g[i], g[i] = glm::dvec4(0.0);
     }
-    options_.processes.sum({&all.front().x, 4 * all.size()});
+    options_.processes.sum(std::span(&all.front().x, 4 * all.size()));
   }
 
   TreeVolume& volume_;
@@ -208,7 +208,7 @@ float TreeVolume::alpha(std::size_t cell) const {
 }
 
 TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::span<const TreeView> views,
-                    const Processes& processes) {
+                    const machines::Processes& processes) {
   TreeVolume volume{std::move(grid), std::move(extinction_per_m), {}};
   tbb::enumerable_thread_specific<Gradients> partial(
       [&] { return Gradients(volume.grid.size(), glm::dvec4(0.0)); });
@@ -237,7 +237,7 @@ TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::spa
   Gradients all(volume.grid.size(), glm::dvec4(0.0));
   for (const Gradients& sums : partial)
     for (std::size_t i = 0; i < all.size(); ++i) all[i] += sums[i];
-  if (processes.sum) processes.sum({&all.front().x, 4 * all.size()});
+  if (processes.are_several()) processes.sum(std::span(&all.front().x, 4 * all.size()));
   for (const glm::dvec4& sum : all)
     volume.colour.push_back(sum.w > 0.0 ? glm::vec3(glm::dvec3(sum) / sum.w) : unseen_colour);
   return volume;

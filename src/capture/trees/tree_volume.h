@@ -39,13 +39,13 @@ struct FitState {
 
 /// How the volume is fitted.
 struct FitOptions {
-  int epochs = 10;                ///< passes over all photographs
-  float colour_rate = 0.04f;      ///< Adam's step, of the square root of the light
-  float extinction_rate = 0.12f;  ///< Adam's step, of the logarithm of the extinction
-  float smoothing = 0.0f;         ///< after each pass: share of the neighbours' mean in each cell
-  int picture_factor = 1;         ///< photographs are reduced so many times
-  std::uint64_t seed = 1;         ///< of the photographs' order
-  Processes processes = {};       ///< each holds its share of the rows and casts their rays
+  int epochs = 10;                     ///< passes over all photographs
+  float colour_rate = 0.04f;           ///< Adam's step, of the square root of the light
+  float extinction_rate = 0.12f;       ///< Adam's step, of the logarithm of the extinction
+  float smoothing = 0.0f;              ///< after each pass: share of the neighbours' mean in each cell
+  int picture_factor = 1;              ///< photographs are reduced so many times
+  std::uint64_t seed = 1;              ///< of the photographs' order
+  machines::Processes processes = {};  ///< each holds its share of the rows and casts their rays
   /// Called after each step, when the volume and the state belong together; where it returns false the fit
   /// ends.
   std::function<bool(const FitState&)> after_step = {};
@@ -57,7 +57,7 @@ struct FitOptions {
 /// Colours of an opacity estimate: for each cell the mean of the photographs' foreground, weighed by how much
 /// of it each pixel sees. Several processes each take their share of the photographs.
 TreeVolume coloured(CellGrid grid, std::vector<float> extinction_per_m, std::span<const TreeView> views,
-                    const Processes& processes = {});
+                    const machines::Processes& processes = {});
 
 /// Improves extinction and colours together. Returns the root mean square error over RGBA of each epoch, as a
 /// display shows it: colours by the slope of sRGB.
