@@ -12,7 +12,6 @@
 #include "base/random.h"
 #include "bench/parts.h"
 #include "formats/gltf/gltf_writer.h"
-#include "graphics/light/own_faces.h"
 #include "graphics/light/vertex_light.h"
 #include "graphics/reference/frame.h"
 #include "graphics/reference/ray_scene.h"
@@ -272,25 +271,13 @@ glm::vec3 random_irradiance(const reference::RayScene& scene, const light::SkyTa
 /// One object's rays, and what lights it.
 class Relit {
  public:
-  /// `object` is the vertices' own, which is set apart; none: what the rays hit is no part of it.
-  Relit(const reference::RayScene& rays, const light::SkyTable& sky, std::vector<light::LitVertex> vertices,
-        int object = scene::no_index)
-      : rays_(rays), sky_(sky), object_(object), light_(std::move(vertices)) {}
+  Relit(const reference::RayScene& rays, const light::SkyTable& sky, std::vector<light::LitVertex> vertices)
+      : rays_(rays), sky_(sky), light_(std::move(vertices)) {}
 
-  /// Milliseconds of its light from nothing, as what has moved is lit: what rays hit of the object itself is
-  /// known from where it was lit before, by as many rays.
+  /// Milliseconds of its light from nothing, as what has moved is lit.
   double time_of(int count, light::Blocked blocked = light::Blocked::bounces) {
     light_.restart();
-    return milliseconds([&] {
-      std::optional<light::OwnFaces> own;
-      if (object_ != scene::no_index) own.emplace(rays_, object_, sky_);
-      light_.refine(rays_, sky_, count, blocked, own ? &*own : nullptr);
-    });
-  }
-  /// The same of an object that has been turned: nothing is known.
-  double time_of_turned(int count) {
-    light_.restart(std::vector(light_.vertices()));
-    return time_of(count);
+    return milliseconds([&] { light_.refine(rays_, sky_, count, blocked); });
   }
   /// What was traced last.
   std::vector<glm::vec3> light() const { return light_.irradiance(); }
@@ -298,7 +285,6 @@ class Relit {
  private:
   const reference::RayScene& rays_;
   const light::SkyTable& sky_;
-  int object_;
   light::VertexLight light_;
 };
 
@@ -306,19 +292,16 @@ class Relit {
 /// that of many rays, with that of a crown that casts no shade on itself as control.
 void measure_times(const CrownCity& city, const light::SkyTable& sky, const reference::RayScene& rays,
                    Report& report) {
-  Relit crown(rays, sky, city.vertices(), city.object());
-  std::vector<double> few_ms(11), many_ms(3), sixteen_ms(11), turned_ms(3);
-  crown.time_of(many_rays);  // where it was before
+  Relit crown(rays, sky, city.vertices());
+  std::vector<double> few_ms(11), many_ms(3), sixteen_ms(11);
   for (double& sample : many_ms) sample = crown.time_of(many_rays);
   const std::vector<glm::vec3> truth = crown.light();
   for (double& sample : sixteen_ms) sample = crown.time_of(few_rays / 4);
   for (double& sample : few_ms) sample = crown.time_of(few_rays);
   const std::vector<glm::vec3> timed = crown.light();
-  for (double& sample : turned_ms) sample = crown.time_of_turned(few_rays);
   const double few = median(few_ms).value, many = median(many_ms).value;
   report.add("relight_10k_vertices_64_rays_ms", few);
   report.add("relight_10k_vertices_1024_rays_ms", many);
-  report.add("relight_10k_vertices_64_rays_ms_of_a_turned_object", median(turned_ms).value);
 
   // What is timed are rays: sixteen times as many take about sixteen times as long.
   const auto off_proportion = [&](double of_few) {
@@ -353,7 +336,7 @@ void measure_errors(const CrownCity& city, const light::SkyTable& sky, const ref
     reference::Passage passage{Random(v)};
     truth[v] = random_irradiance(rays, sky, vertices[v], true_rays, passage);
   });
-  Relit crown(rays, sky, vertices, city.object());
+  Relit crown(rays, sky, vertices);
   const auto off_percent = [&](int count, light::Blocked blocked = light::Blocked::bounces) {
     crown.time_of(count, blocked);
     return light_rmse_percent(crown.light(), truth);
@@ -489,8 +472,7 @@ void measure_relighting(const BenchSetup& setup, Report& report) {
   const light::SkyTable sky(city.scene());
   city.stands_free_in_sun(sky.to_sun());
   const scene::Scene casters = city.casters(true);
-  reference::RayScene rays(casters);
-  if (!rays.set_apart(city.object())) fail("the crown stands still: its triangles are joined");
+  const reference::RayScene rays(casters);
   measure_times(city, sky, rays, report);
   measure_errors(city, sky, rays, report);
 }

@@ -18,8 +18,6 @@ inline constexpr int rays_per_bounce = 3;
 inline bool brings_bounce(int ray) { return ray % rays_per_bounce == 0; }
 /// How many of the first rays do.
 inline int bounces_of(int rays) { return (rays + rays_per_bounce - 1) / rays_per_bounce; }
-/// How many of those have odd numbers: every other one.
-inline int odd_bounces_of(int rays) { return bounces_of(rays) / 2; }
 
 /// A ray of a vertex: its number, and where it leaves the unit disc before its turn.
 struct DiscPoint {

@@ -18,8 +18,7 @@ inline constexpr float lift_m = 1e-3f;
 class Packet {
  public:
   /// Empty; the scene must outlive it.
-  explicit Packet(const reference::RayScene& scene, reference::Meets meets = reference::Meets::all)
-      : scene_(scene), meets_(meets) {}
+  explicit Packet(const reference::RayScene& scene) : scene_(scene) {}
 
   /// By what a caller knows a ray.
   struct Tag {
@@ -27,8 +26,8 @@ class Packet {
   };
 
   /// What blended surfaces do follows from the tag.
-  void add(glm::vec3 from, glm::vec3 direction, Tag tag, float max_m = 1e30f) {
-    rays_[count_] = {from, direction, 1e-4f, max_m, meets_};
+  void add(glm::vec3 from, glm::vec3 direction, Tag tag) {
+    rays_[count_] = {from, direction};
     tags_[count_] = tag;
     passages_[count_++] = {.random = Random(tag.vertex + tag.ray), .passes_backdrops = true};
   }
@@ -38,8 +37,6 @@ class Packet {
   std::size_t count() const { return count_; }
   /// As it was added.
   glm::vec3 direction(std::size_t ray) const { return rays_[ray].direction; }
-  /// As it was added.
-  glm::vec3 from(std::size_t ray) const { return rays_[ray].origin; }
   /// As it was added.
   Tag tag(std::size_t ray) const { return tags_[ray]; }
   /// Takes all rays out.
@@ -57,7 +54,6 @@ class Packet {
 
  private:
   const reference::RayScene& scene_;
-  reference::Meets meets_;
   std::size_t count_ = 0;
   std::array<reference::Ray, reference::RayScene::packet_size> rays_;
   std::array<Tag, reference::RayScene::packet_size> tags_{};

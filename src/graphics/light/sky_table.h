@@ -29,8 +29,6 @@ class SkyTable {
   const std::optional<scene::Spot>& spot() const { return spot_; }
   /// Irradiance of the open sky without the sun on a surface with unit `normal`.
   glm::vec3 irradiance(glm::vec3 normal) const;
-  /// Of that irradiance, by shading::sh_basis of the normal.
-  const std::array<glm::vec3, 9>& harmonics() const { return sh_; }
 
  private:
   void fill(const std::function<glm::vec3(glm::vec3 direction)>& radiance);

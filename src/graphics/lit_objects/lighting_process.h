@@ -16,9 +16,8 @@ inline constexpr const char* lit_type = "litVirtualObject";
 
 /// When the scene begins, all vertices get all their rays. Later each presented moment compares where objects
 /// stand, and which of them are visible, with where they stood, and the sky with the one before: what differs
-/// is lit at once as well as the budget allows, and what is left of the budget goes to the vertices that have
-/// had the fewest rays. Budgets are counted in rays, not by the clock: the same moments give the same
-/// picture.
+/// is lit again, by rounds of rays for the vertices that have had the fewest, as many as the budget allows.
+/// Budgets are counted in rays, not by the clock: the same moments give the same picture.
 class LightingProcess final : public action::Process {
  public:
   std::string name() const override { return "lit objects"; }
@@ -51,23 +50,8 @@ class LightingProcess final : public action::Process {
   void make_casters(const scene::Scene& scene);
   bool follow_casters(const scene::Scene& scene);
   bool follow_sky(const scene::Scene& scene);
-  /// What a moment has changed.
-  struct Changes {
-    std::vector<LitObject*> moved;            ///< and all that rays have to find the light of from nothing
-    std::vector<LitObject*> under_other_sky;  ///< and nothing else
-  };
-  Changes changes_in(const scene::Scene& scene, bool is_new_place, bool is_new_sky);
-  double budget() const;  ///< of a moment, in rays
-  static double cost_of_other_sky(std::size_t vertices);
-  void light(const Changes& changes);
-  void light_under_other_sky(const std::vector<LitObject*>& objects);
-  void light_quickly(const std::vector<LitObject*>& moved);
-  void guess_light(LitObject& lit, const light::VisibilityPlaces& places, int sun_rays);
-  GuessWeights weights_of(const LitObject& lit, const std::vector<Clues>& clues);
-  const light::VisibilityPlaces& places_around(const Bounds& bounds);
-  const light::OwnFaces* own_faces(LitObject& lit);
+  void follow_changes(const scene::Scene& scene, bool is_new_place, bool is_new_sky);
   void refine();
-  void remember(VertexBlock& block, const LitObject& object);
 
   const scene::LiveScene* live_ = nullptr;
   int edits_ = -1;                ///< of the nodes, that `lit_` knows of; below 0: none yet
@@ -77,16 +61,15 @@ class LightingProcess final : public action::Process {
   std::vector<const scene::Node*> lit_nodes_;  ///< of each
   std::vector<bool> was_visible_;              ///< of each, at the moment before
   std::vector<bool> is_lit_;                   ///< by object
-  double budget_ms_ = 0.0;
-  double rays_left_ = 0.0;    ///< of this moment's budget
-  bool is_settling_ = false;  ///< all rays at once, whatever the budget
+  double budget_ms_ = 0.0;                     ///< 0: none
+  int moment_ = 0;                             ///< number of the one that is lit
+  double rays_left_ = 0.0;                     ///< of this moment's budget
+  bool is_settling_ = false;                   ///< all rays at once, whatever the budget
   std::optional<SkySource> sky_source_;
   std::unique_ptr<light::SkyTable> sky_;
   scene::Scene casters_;  ///< static things and lit objects; others come and go
   std::unique_ptr<reference::RayScene> rays_;
   std::vector<Standing> standing_;
-  std::optional<light::VisibilityPlaces> places_;
-  Bounds places_region_;
 };
 
 }  // namespace parvis::lit_objects

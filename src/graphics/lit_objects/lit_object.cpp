@@ -11,10 +11,6 @@ namespace parvis::lit_objects {
 namespace {
 
 constexpr std::size_t block_vertices = 4096;
-/// Of which it is kept what they hit of their own object: 8 bytes each.
-constexpr std::size_t max_own_rays = 4'000'000;
-/// Fewer rays than these to the sky are not shown by themselves.
-constexpr int min_shown_rays = 64;
 
 bool shows_backs(const scene::Model& model, const scene::Part& part) {
   const scene::Material& material = model.materials[std::size_t(part.material)];
@@ -47,53 +43,7 @@ bool faces_inward(const Mesh& mesh) {
   return six_volumes < 0.0;
 }
 
-/// True where parts have moved by one way, and nothing has been turned or stretched.
-bool is_shifted(const std::vector<glm::mat4>& from, const std::vector<glm::mat4>& to) {
-  if (from.empty() || from.size() != to.size()) return false;
-  const glm::vec4 way = to[0][3] - from[0][3];
-  for (std::size_t p = 0; p < to.size(); ++p) {
-    constexpr float max_off_m = 1e-4f;  // roundings far from the origin
-    for (int column = 0; column < 3; ++column)
-      if (from[p][column] != to[p][column]) return false;
-    if (glm::distance(way, to[p][3] - from[p][3]) > max_off_m) return false;
-  }
-  return true;
-}
-
-/// Sky and sun together.
-std::vector<glm::vec3> sum_of(SplitLight light) {
-  for (std::size_t v = 0; v < light.sky.size(); ++v) light.sky[v] += light.sun[v];
-  return std::move(light.sky);
-}
-
 }  // namespace
-
-bool VertexBlock::stands_alone() const {
-  return is_finished() || (light.rays() > 0 && light.sky_rays() >= min_shown_rays);
-}
-
-void VertexBlock::show_light() {
-  if (is_finished()) guess.reset();
-  if (guess)
-    show(sum_of(mixed(*guess, light)));
-  else if (stands_alone())
-    show(light.irradiance());
-}
-
-void VertexBlock::restart() {
-  if (guess)
-    guess = mixed(*guess, light);
-  else if (stands_alone())
-    guess = {light.sky_irradiance(), light.sun_irradiance()};
-  light.restart();
-}
-
-bool VertexBlock::can_follow_sky() const { return light.sky_rays() >= min_shown_rays; }
-
-void VertexBlock::follow_sky(const light::SkyTable& sky) {
-  light.follow(sky);
-  guess.reset();
-}
 
 std::size_t LitObject::texel_count(const scene::Object& object) {
   std::size_t count = 0;
@@ -160,11 +110,8 @@ bool LitObject::follow(const scene::Scene& scene) {
   const scene::Object& it = scene.objects[std::size_t(object_)];
   std::vector<glm::mat4> now = transforms_of(it);
   if (now == world_from_mesh_ && it.deformed_meshes.empty()) return false;
-  is_deformed_ = !it.deformed_meshes.empty();
-  const bool knows_itself = !is_deformed_ && is_shifted(world_from_mesh_, now);
   world_from_mesh_ = std::move(now);
   bounds_ = {};
-  faces_.reset();
   std::vector<light::LitVertex> all;
   std::size_t part = it.model->parts.size();
   for (VertexBlock& block : blocks_) {
@@ -175,37 +122,17 @@ bool LitObject::follow(const scene::Scene& scene) {
       bounds_.add(vertex.position);
       if (block.is_behind) vertex.normal = -vertex.normal;
     }
-    if (knows_itself)
-      block.light.shift(std::move(own));
-    else
-      block.light.restart(std::move(own));
-    block.guess.reset();
+    block.light.restart(std::move(own));
   }
   return true;
 }
 
 void LitObject::restart() {
-  faces_.reset();
-  for (VertexBlock& block : blocks_) block.restart();
+  for (VertexBlock& block : blocks_) block.light.restart();
 }
 
 void LitObject::follow_sky(const light::SkyTable& sky) {
-  faces_.reset();
-  for (VertexBlock& block : blocks_) block.follow_sky(sky);
-}
-
-const light::OwnFaces* LitObject::faces(const reference::RayScene& rays, const light::SkyTable& sky) {
-  std::size_t own_rays = 0;
-  for (const VertexBlock& block : blocks_) own_rays += block.shown.size() * std::size_t(block.rays_wanted);
-  if (is_deformed_ || own_rays > max_own_rays) return nullptr;
-  if (!faces_) faces_.emplace(rays, object_, sky);
-  return &*faces_;
-}
-
-bool LitObject::is_finished() const { return std::ranges::all_of(blocks_, &VertexBlock::is_finished); }
-
-bool LitObject::has_light() const {
-  return std::ranges::all_of(blocks_, [](const VertexBlock& block) { return block.is_shown; });
+  for (VertexBlock& block : blocks_) block.light.follow(sky);
 }
 
 bool LitObject::take_news() {

@@ -1,5 +1,3 @@
-#include "graphics/lit_objects/room.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/house.h"
 #include "graphics/lit_objects/lighting_process.h"
+#include "rooms.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
@@ -35,8 +35,8 @@ scene::NodeSchema lit_virtual_object_schema() {
                "budget_ms",
                "about how long lighting may take in a frame after a change, as this program's rays take on "
                "two "
-               "cores: too little for rays, and what was seen from places around is interpolated, or nothing "
-               "hides the sky; 0: however long it takes")
+               "cores: what has no time for rays keeps its light until its turn comes; 0: however long it "
+               "takes")
                .in("ms")
                .between(0.0, 10'000.0)
                .by_default("30")
@@ -76,6 +76,8 @@ void build_lit(const scene::Node& node, scene::SceneBuilder& builder) {
 
 }  // namespace
 
+/// Adds the node litVirtualObject and the process that lights what stands in it. After the rooms whose nodes
+/// stand in it, and whose processes move things.
 void furnish(House& house) {
   scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
   registry.add(lit_virtual_object_schema(), build_lit);

@@ -220,11 +220,6 @@ bool asks_about_backs(std::span<const Passage> passages) {
   return passages.empty() || std::ranges::any_of(passages, [](const Passage& p) { return !p.sees_backs; });
 }
 
-unsigned mask_of(Meets meets) {
-  if (meets == Meets::all) return ~0u;
-  return meets == Meets::others ? others_mask : apart_mask;
-}
-
 RTCRay embree_ray(const Ray& ray) {
   return {ray.origin.x,
           ray.origin.y,
@@ -235,7 +230,7 @@ RTCRay embree_ray(const Ray& ray) {
           ray.direction.z,
           0.0f,
           ray.max_m,
-          mask_of(ray.meets),
+          ~0u,  // hits every instance
           0,
           0};
 }
@@ -294,7 +289,7 @@ struct Packet {
       r.org_x[i] = ray.origin.x, r.org_y[i] = ray.origin.y, r.org_z[i] = ray.origin.z;
       r.dir_x[i] = ray.direction.x, r.dir_y[i] = ray.direction.y, r.dir_z[i] = ray.direction.z;
       r.tnear[i] = ray.min_m, r.tfar[i] = ray.max_m, r.time[i] = 0.0f;
-      r.mask[i] = mask_of(ray.meets), r.id[i] = unsigned(first + i), r.flags[i] = 0;
+      r.mask[i] = ~0u, r.id[i] = unsigned(first + i), r.flags[i] = 0;
       rays.hit.geomID[i] = rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
   }

@@ -16,9 +16,6 @@ inline constexpr unsigned joined_instance = 0;
 /// That of a place which is not joined.
 inline unsigned instance_of(std::size_t place) { return unsigned(place + 1); }
 
-/// Of instances: bits that rays have in common with what they hit.
-inline constexpr unsigned others_mask = 1, apart_mask = 2;
-
 /// Which place a hit belongs to.
 inline std::size_t place_of(unsigned instance, unsigned geometry) {
   return instance == joined_instance ? geometry : instance - 1;

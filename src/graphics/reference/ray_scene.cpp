@@ -148,7 +148,6 @@ RayScene::RayScene(const scene::Scene& scene, Precision precision)
   rtcSetSceneFlags(joined_, traced_flags);
   RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(instance, joined_);
-  rtcSetGeometryMask(instance, others_mask);
   rtcAttachGeometryByID(top_, instance, joined_instance);
   rtcReleaseGeometry(instance);
   for (const scene::Object& object : scene.objects)
@@ -258,21 +257,6 @@ std::vector<const PlacedPart*> RayScene::parts_of(int object) const {
   for (const std::unique_ptr<PlacedPart>& place : places_)
     if (place->object == object && place->is_traced) parts.push_back(place.get());
   return parts;
-}
-
-bool RayScene::set_apart(int object) {
-  if (object == apart_) return true;
-  if (std::ranges::any_of(parts_of(object), &PlacedPart::is_joined)) return false;
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    const PlacedPart& place = *places_[i];
-    if (!place.is_traced || place.is_joined || (place.object != object && place.object != apart_)) continue;
-    const RTCGeometry instance = rtcGetGeometry(top_, instance_of(i));
-    rtcSetGeometryMask(instance, place.object == object ? apart_mask : others_mask);
-    rtcCommitGeometry(instance);
-  }
-  apart_ = object;
-  rtcCommitScene(top_);
-  return true;
 }
 
 Bounds RayScene::fixed_bounds(const scene::Scene& scene) const {
@@ -401,7 +385,6 @@ bool RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world
   part.is_mirrored = volume_of(world_from_mesh) < 0.0f;
   rtcSetGeometryInstancedScene(instance, mesh_scene(mesh, world_from_mesh, is_filtered));
   rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, glm::value_ptr(world_from_mesh));
-  rtcSetGeometryMask(instance, part.object == apart_ ? apart_mask : others_mask);
   rtcEnableGeometry(instance);
   rtcCommitGeometry(instance);
   return true;

@@ -27,14 +27,10 @@ struct RTCSceneTy;
 
 namespace parvis::reference {
 
-/// What a ray hits where an object is set apart (RayScene::set_apart).
-enum class Meets : unsigned char { all, others, apart };
-
 /// A ray in the world: a hit counts between `min_m` and `max_m` along it.
 struct Ray {
   glm::vec3 origin, direction;  ///< unit direction
   float min_m = 1e-4f, max_m = 1e30f;
-  Meets meets = Meets::all;
 };
 
 /// A part of an object in the world, or a mesh that a room draws by itself.
@@ -114,9 +110,6 @@ class RayScene {
   /// part one before and one after it.
   std::span<const Bounds> moved() const { return moved_; }
 
-  /// From now on rays may hit this object of the scene alone, or all but this: one at a time. False where it
-  /// stands still, so that its triangles are joined with others; nothing has changed then.
-  bool set_apart(int object);
   /// Parts of an object of the scene that can be hit, in the model's order.
   std::vector<const PlacedPart*> parts_of(int object) const;
 
@@ -189,7 +182,6 @@ class RayScene {
   std::unordered_map<const scene::Model*, std::unique_ptr<std::vector<MipTexture>>> textures_;
   std::vector<std::shared_ptr<const void>> kept_;  ///< meshes, models and surfaces of traced things
   std::vector<Bounds> moved_;
-  int apart_ = scene::no_index;  ///< the object that is set apart
   std::size_t triangle_count_ = 0;
   float margin_m_ = 0.0f;  ///< by which triangles are grown; 0: Precision::coarse
 };

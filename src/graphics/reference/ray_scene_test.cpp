@@ -86,36 +86,6 @@ TEST(RayScene, UpdatesAgreeWithANewScene) {
   expect_same(rays, scene, "flattened: left out");
 }
 
-TEST(RayScene, RaysFindAnObjectThatIsSetApartAloneOrNotAtAll) {
-  scene::Scene scene = three_things();
-  RayScene rays(scene);
-  const auto distance = [&](glm::vec2 at, Meets meets) {
-    Ray down{{at, 9.0f}, {0, 0, -1}};
-    down.meets = meets;
-    std::array<Passage, 1> passage{};
-    std::array<std::optional<Hit>, 1> hits;
-    rays.nearest_hits(std::span(&down, 1), passage, hits);
-    EXPECT_EQ(rays.are_blocked(std::span(&down, 1), passage), hits[0] ? 1u : 0u);
-    EXPECT_EQ(rays.is_blocked(down, passage[0]), hits[0].has_value());
-    return hits[0] ? hits[0]->distance_m : 0.0f;
-  };
-  const glm::vec2 corner(0.95f);  // of the box, beside the sphere
-  EXPECT_FALSE(rays.set_apart(0)) << "the ground stands still";
-  ASSERT_TRUE(rays.set_apart(1));
-  EXPECT_NEAR(distance(corner, Meets::all), 7.0f, 1e-4f);
-  EXPECT_NEAR(distance(corner, Meets::apart), 7.0f, 1e-4f);
-  EXPECT_NEAR(distance(corner, Meets::others), 9.0f, 1e-4f) << "the ground";
-  EXPECT_EQ(distance({3, 3}, Meets::apart), 0.0f);
-  scene.objects[1].world_from_model = glm::translate(glm::mat4(1.0f), {3, 3, 0});
-  rays.update(scene);
-  EXPECT_NEAR(distance({3, 3}, Meets::apart), 7.0f, 1e-4f) << "it has moved";
-  EXPECT_NEAR(distance({3, 3}, Meets::others), 9.0f, 1e-4f);
-  ASSERT_TRUE(rays.set_apart(2));
-  EXPECT_NEAR(distance({3, 3}, Meets::others), 7.0f, 1e-4f) << "the box is one of the others again";
-  EXPECT_NEAR(distance({0, 0}, Meets::apart), 7.0f, 1e-4f);
-  EXPECT_NEAR(distance({0, 0}, Meets::all), 7.0f, 1e-4f);
-}
-
 TEST(RayScene, HiddenObjectsAppear) {
   scene::Scene scene = three_things();
   scene.objects[1].is_visible = false;
