@@ -5,6 +5,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "base/plan_polygon.h"
 #include "formats/city_models/osm_rings.h"
 
 namespace parvis::scene {
@@ -80,14 +81,7 @@ double area_m2(const OsmRing& ring) {
   return twice / 2.0;
 }
 
-bool holds(const OsmRing& ring, dvec2 point) {
-  bool is_inside = false;
-  for (std::size_t i = 0, k = ring.size() - 1; i < ring.size(); k = i++)
-    if ((ring[i].y > point.y) != (ring[k].y > point.y) &&
-        point.x < ring[i].x + (ring[k].x - ring[i].x) * (point.y - ring[i].y) / (ring[k].y - ring[i].y))
-      is_inside = !is_inside;
-  return is_inside;
-}
+bool holds(const OsmRing& ring, dvec2 point) { return is_in_ring(ring, point); }
 
 dvec2 middle(const OsmRing& ring) {
   dvec2 sum(0.0);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <queue>
 
+#include "base/plan_polygon.h"
 #include "formats/city_models/osm_measures.h"
 #include "formats/city_models/osm_roads.h"
 
@@ -32,10 +33,8 @@ int layer_of(const OsmTags& tags) {
   return std::clamp(layer, -max_layer, max_layer);
 }
 
-double turn(dvec2 a, dvec2 b, dvec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
-
 bool cross(dvec2 a, dvec2 b, dvec2 c, dvec2 d) {
-  return turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0;
+  return twice_area(a, b, c) * twice_area(a, b, d) < 0.0 && twice_area(c, d, a) * twice_area(c, d, b) < 0.0;
 }
 
 double slope_of(const OsmTags& tags) { return is_rail(tags) ? rail_slope : road_slope; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/plan_polygon.h"
+
 namespace parvis::scene {
 
 namespace {
@@ -60,16 +62,8 @@ std::vector<glm::ivec2> cells_inside(const GroundGrid& grid, std::span<const std
   const int first = std::max(0, grid.cell_at({0.0f, low}).y);
   const int last = std::min(grid.height - 1, grid.cell_at({0.0f, high}).y);
 
-  std::vector<float> crossings;  // of the row's middle line with the rings
   for (int y = first; y <= last; ++y) {
-    const float row = grid.centre_of({0, y}).y;
-    crossings.clear();
-    for (const std::vector<glm::vec3>& ring : rings)
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const glm::vec3 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-        if ((a.y <= row) != (b.y <= row)) crossings.push_back(a.x + (b.x - a.x) * (row - a.y) / (b.y - a.y));
-      }
-    std::ranges::sort(crossings);
+    const std::vector<float> crossings = crossings_of_line(rings, grid.centre_of({0, y}).y);
     for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
       const int from = int(std::ceil((crossings[i] - grid.origin.x) / grid.cell_m - 0.5f));
       const int to = int(std::floor((crossings[i + 1] - grid.origin.x) / grid.cell_m - 0.5f));

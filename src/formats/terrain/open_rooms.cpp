@@ -7,6 +7,7 @@
 
 #include "base/bounds.h"
 #include "base/cut_polygon.h"
+#include "base/plan_polygon.h"
 #include "formats/terrain/city_surfaces.h"
 #include "scene/data/surroundings.h"
 
@@ -42,13 +43,6 @@ struct Level {
   float height_at(glm::vec2 p) const {
     const glm::vec2 away = p - glm::vec2(corners[0]);
     return corners[0].z - (normal.x * away.x + normal.y * away.y) / normal.z;
-  }
-  bool holds(glm::vec2 p) const {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const glm::vec2 from(corners[k]), along = glm::vec2(corners[(k + 1) % 3]) - from, away = p - from;
-      if (along.x * away.y < along.y * away.x) return false;
-    }
-    return true;
   }
 };
 
@@ -177,7 +171,7 @@ bool is_above_ceiling(const Polygon& land, const Level& floor, const Levels& cei
   here.add(middle);
   return std::ranges::any_of(ceilings.near(here), [&](std::uint32_t index) {
     const Level& ceiling = ceilings[index];
-    if (!ceiling.holds(place)) return false;
+    if (!is_in_triangle(ceiling.corners, place)) return false;
     const float height_m = ceiling.height_at(place);
     return height_m > floor.height_at(place) && height_m < middle.z;
   });

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 
 #include "base/known_names.h"
+#include "base/plan_polygon.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/name_pattern.h"
 
@@ -15,11 +17,6 @@ namespace {
 constexpr std::size_t max_corners = 1'000;
 constexpr double min_area_m2 = 1e-3;
 
-/// Twice the area of the triangle; positive if counter-clockwise.
-double turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
 /// Whether `point`, which lies on the line through the others, lies between them.
 bool is_between(glm::dvec2 a, glm::dvec2 b, glm::dvec2 point) {
   return glm::dot(a - point, b - point) <= 0.0;
@@ -27,7 +24,8 @@ bool is_between(glm::dvec2 a, glm::dvec2 b, glm::dvec2 point) {
 
 /// Two sides cross or touch.
 bool meet(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c, glm::dvec2 d) {
-  const double c_side = turn(a, b, c), d_side = turn(a, b, d), a_side = turn(c, d, a), b_side = turn(c, d, b);
+  const double c_side = twice_area(a, b, c), d_side = twice_area(a, b, d), a_side = twice_area(c, d, a),
+               b_side = twice_area(c, d, b);
   if (c_side * d_side < 0.0 && a_side * b_side < 0.0) return true;
   return (c_side == 0.0 && is_between(a, b, c)) || (d_side == 0.0 && is_between(a, b, d)) ||
          (a_side == 0.0 && is_between(c, d, a)) || (b_side == 0.0 && is_between(c, d, b));
@@ -63,12 +61,13 @@ Result<std::vector<glm::dvec2>> checked_outline(std::vector<glm::dvec2> corners)
   if (count < 3 || count > max_corners)
     return error("an outline has 3 to {} corners; this one has {}", max_corners, count);
   const auto corner = [&](std::size_t i) { return corners[i % count]; };
-  double twice_area = 0.0;
-  for (std::size_t i = 0; i < count; ++i) twice_area += turn(corner(0), corner(i), corner(i + 1));
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i) sum += twice_area(corner(0), corner(i), corner(i + 1));
   // Sides that follow each other share a corner: they must not lie over each other. Others must not meet.
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec2 here = corner(i + 1), before = corner(i), after = corner(i + 2);
-    const bool turns_back = turn(before, here, after) == 0.0 && glm::dot(before - here, after - here) > 0.0;
+    const bool turns_back =
+        twice_area(before, here, after) == 0.0 && glm::dot(before - here, after - here) > 0.0;
     if (turns_back)
       return error("the outline goes back over itself at its corner {}: \"{:g} {:g}\"", (i + 1) % count + 1,
                    here.x, here.y);
@@ -79,27 +78,19 @@ Result<std::vector<glm::dvec2>> checked_outline(std::vector<glm::dvec2> corners)
             "the corners in their order around the ground",
             i + 1, i + 2, k + 1, (k + 1) % count + 1);
   }
-  if (!(std::abs(twice_area) >= 2.0 * min_area_m2)) return error("the outline has no area");
+  if (!(std::abs(sum) >= 2.0 * min_area_m2)) return error("the outline has no area");
   return corners;
 }
 
 std::vector<std::uint8_t> cells_inside(const std::vector<glm::dvec2>& outline, glm::dvec2 corner,
                                        double cell_m, int columns, int rows) {
   std::vector<std::uint8_t> inside(std::size_t(columns) * std::size_t(rows), 0);
-  std::vector<double> crossings;  // of a row's middle, in cells
-  crossings.reserve(outline.size());
   for (int row = 0; row < rows; ++row) {
-    const double y = corner.y + (row + 0.5) * cell_m;
-    crossings.clear();
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      const glm::dvec2 a = outline[i], b = outline[(i + 1) % outline.size()];
-      if ((a.y > y) != (b.y > y))
-        crossings.push_back((a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x) - corner.x) / cell_m);
-    }
-    std::ranges::sort(crossings);
+    const std::vector<double> crossings = crossings_of_line(
+        std::span<const std::vector<glm::dvec2>>(&outline, 1), corner.y + (row + 0.5) * cell_m);
     for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
       const auto column_at = [&](double place) {
-        return int(std::clamp(std::ceil(place - 0.5), 0.0, double(columns)));
+        return int(std::clamp(std::ceil((place - corner.x) / cell_m - 0.5), 0.0, double(columns)));
       };
       for (int column = column_at(crossings[i]); column < column_at(crossings[i + 1]); ++column)
         inside[std::size_t(row) * std::size_t(columns) + std::size_t(column)] = 1;

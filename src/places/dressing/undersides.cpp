@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/plan_polygon.h"
+
 namespace parvis::dressing {
 namespace {
 
@@ -16,17 +18,6 @@ constexpr int max_looked_at = 500;  // in one cell: maps that heap more on a pla
 glm::ivec2 cell_of(glm::vec2 point) { return glm::ivec2(glm::floor(point / underside_cell_m)); }
 
 std::uint64_t key(int x, int y) { return std::uint64_t(std::uint32_t(x)) << 32u | std::uint32_t(y); }
-
-/// In plan, whichever way the triangle turns.
-bool holds(const std::array<glm::vec3, 3>& triangle, glm::vec2 point) {
-  int left = 0, right = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const glm::vec2 a(triangle[i]), along = glm::vec2(triangle[(i + 1) % 3]) - a, away = point - a;
-    const float side = along.x * away.y - along.y * away.x;
-    left += side > 0.0f, right += side < 0.0f;
-  }
-  return left == 0 || right == 0;
-}
 
 }  // namespace
 
@@ -67,7 +58,7 @@ bool Undersides::begin_at(const WallPanel& panel) const {
     const Triangle& triangle = triangles_[index];
     const bool is_at_foot = std::ranges::all_of(
         triangle, [&](const glm::vec3& corner) { return std::abs(corner.z - foot_m) < same_underside_m; });
-    if (is_at_foot && holds(triangle, at)) return true;
+    if (is_at_foot && is_in_triangle(triangle, at)) return true;
   }
   return false;
 }
