@@ -1,4 +1,4 @@
-// All rooms of the house. A room joins by one line in rooms.cpp.
+// All rooms of the house. A room joins by one line in src/rooms.h.
 #pragma once
 
 #include <span>

@@ -1,13 +1,13 @@
-#include "capture/facades/room.h"
-
 #include <map>
 #include <memory>
 #include <mutex>
 
+#include "base/house.h"
 #include "capture/facades/facade_drawable.h"
 #include "capture/facades/facade_gltf.h"
 #include "capture/facades/placed_facade.h"
 #include "capture/facades/recorded_shadows.h"
+#include "rooms.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"
@@ -93,6 +93,7 @@ void build(const scene::Node& node, scene::SceneBuilder& builder, SharedFiles& f
 
 }  // namespace
 
+/// facade; its drawable.
 void furnish(House& house) {
   const auto files = std::make_shared<SharedFiles>();
   house.get<scene::NodeRegistry>().add(

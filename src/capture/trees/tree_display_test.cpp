@@ -6,11 +6,11 @@
 #include <fstream>
 #include <limits>
 
+#include "base/house.h"
 #include "capture/trees/billboard_textures.h"
 #include "capture/trees/cell_order.h"
 #include "capture/trees/judge.h"
 #include "capture/trees/level_choice.h"
-#include "capture/trees/room.h"
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/shown_tree.h"
 #include "capture/trees/test_volume.h"
@@ -24,9 +24,9 @@
 #include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
 #include "graphics/shading/tone_curve.h"
+#include "rooms.h"
 #include "scene/data/sun_shadows.h"
 #include "scene/data/test_scene.h"
-#include "scene/script/room.h"
 #include "scene/script/scene_loader.h"
 
 namespace parvis::trees {

@@ -2,11 +2,12 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "capture/trees/room.h"
+#include "base/house.h"
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/tree_drawable.h"
 #include "capture/trees/tree_file.h"
 #include "capture/trees/wind.h"
+#include "rooms.h"
 #include "scene/script/attribute.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
@@ -102,6 +103,7 @@ void build_tree(const Node& node, SceneBuilder& builder) {
 
 }  // namespace
 
+/// How captured trees join the house: the node `tree`, and what draws and traces it.
 void furnish(House& house) {
   house.get<scene::NodeRegistry>().add(tree_schema(), build_tree);
   house.get<render::Drawables>().add(scene_trees_kind());

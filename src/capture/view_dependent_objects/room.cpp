@@ -1,14 +1,14 @@
-#include "capture/view_dependent_objects/room.h"
-
 #include <algorithm>
 #include <map>
 #include <memory>
 #include <mutex>
 
+#include "base/house.h"
 #include "capture/view_dependent_objects/model_pairs.h"
 #include "capture/view_dependent_objects/object_drawable.h"
 #include "capture/view_dependent_objects/placed_object.h"
 #include "formats/readers/readers.h"
+#include "rooms.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"
@@ -136,6 +136,7 @@ void build(const scene::Node& node, scene::SceneBuilder& builder, const formats:
 
 }  // namespace
 
+/// Adds the node vdobject, and what draws and traces it.
 void furnish(House& house) {
   const formats::Readers& readers = house.get<formats::Readers>();
   const auto known = std::make_shared<KnownModels>();

@@ -1,9 +1,10 @@
 // Accounts as they come through the registry of readers, from the child processes that read.
 #include <gtest/gtest.h>
 
+#include "base/house.h"
 #include "base/test_folder.h"
-#include "formats/city_models/room.h"
 #include "formats/readers/readers.h"
+#include "rooms.h"
 
 namespace parvis::city_models {
 namespace {

@@ -1,5 +1,4 @@
-#include "formats/city_models/room.h"
-
+#include "base/house.h"
 #include "formats/city_models/city_gml.h"
 #include "formats/city_models/city_json.h"
 #include "formats/city_models/osm_file_bytes.h"
@@ -7,6 +6,7 @@
 #include "formats/readers/content.h"
 #include "formats/readers/isolated_reader.h"
 #include "formats/readers/plain_account.h"
+#include "rooms.h"
 
 namespace parvis::city_models {
 namespace {
@@ -56,6 +56,7 @@ Result<FileContent> read_map_on_ground(const fs::path& file, const ModelReading&
 
 }  // namespace
 
+/// Adds the readers of CityJSON, CityGML and OpenStreetMap.
 void furnish(House& house) {
   formats::Readers& readers = house.get<formats::Readers>();
   constexpr formats::TakesPacked takes_packed = formats::TakesPacked::yes;

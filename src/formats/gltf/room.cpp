@@ -1,8 +1,8 @@
-#include "formats/gltf/room.h"
-
+#include "base/house.h"
 #include "formats/gltf/gltf_reader.h"
 #include "formats/readers/content.h"
 #include "formats/readers/isolated_reader.h"
+#include "rooms.h"
 
 namespace parvis::gltf {
 namespace {
@@ -16,6 +16,7 @@ bool is_gltf(std::string_view front) { return front.starts_with("glTF") || forma
 
 }  // namespace
 
+/// Adds the reader of .glb and .gltf.
 void furnish(House& house) {
   house.get<formats::Readers>().add({".glb", ".gltf"}, formats::isolated<read_model>(), is_gltf,
                                     formats::TakesPacked::yes);

@@ -1,9 +1,9 @@
-#include "formats/ifc/room.h"
-
+#include "base/house.h"
 #include "formats/ifc/ifc_reader.h"
 #include "formats/readers/content.h"
 #include "formats/readers/isolated_reader.h"
 #include "formats/readers/plain_account.h"
+#include "rooms.h"
 
 namespace parvis::ifc {
 namespace {
@@ -24,6 +24,7 @@ bool looks_like_step(std::string_view front) {
 
 }  // namespace
 
+/// Adds the reader of .ifc.
 void furnish(House& house) {
   house.get<formats::Readers>().add({".ifc"}, formats::isolated<read>(), looks_like_step,
                                     formats::TakesPacked::yes);

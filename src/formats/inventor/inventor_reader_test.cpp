@@ -4,10 +4,11 @@
 
 #include <algorithm>
 
+#include "base/house.h"
 #include "base/image_io.h"
 #include "base/test_folder.h"
-#include "formats/inventor/room.h"
 #include "formats/inventor/test_files.h"
+#include "rooms.h"
 
 namespace parvis::inventor {
 namespace {

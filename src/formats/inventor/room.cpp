@@ -1,7 +1,7 @@
-#include "formats/inventor/room.h"
-
+#include "base/house.h"
 #include "formats/inventor/inventor_reader.h"
 #include "formats/readers/isolated_reader.h"
+#include "rooms.h"
 
 namespace parvis::inventor {
 namespace {
@@ -12,6 +12,7 @@ bool looks_like_inventor(std::string_view front) {
 
 }  // namespace
 
+/// Adds the reader of .iv and .wrl.
 void furnish(House& house) {
   house.get<formats::Readers>().add({".iv", ".wrl"}, formats::isolated<read_inventor>(), looks_like_inventor);
 }

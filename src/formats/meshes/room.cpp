@@ -1,10 +1,11 @@
-#include "formats/meshes/room.h"
-
+#include "base/house.h"
 #include "formats/meshes/mesh_formats.h"
 #include "formats/meshes/mesh_nodes.h"
+#include "rooms.h"
 
 namespace parvis::meshes {
 
+/// Adds model, object, material, wheels; the reader of every file that no other room reads.
 void furnish(House& house) {
   scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
   formats::Readers& readers = house.get<formats::Readers>();

@@ -1,8 +1,8 @@
-#include "formats/terrain/room.h"
-
+#include "base/house.h"
 #include "formats/readers/isolated_reader.h"
 #include "formats/readers/plain_account.h"
 #include "formats/terrain/terrain.h"
+#include "rooms.h"
 
 namespace parvis::terrain {
 namespace {
@@ -26,6 +26,7 @@ bool is_tiff(std::string_view front) {
 
 }  // namespace
 
+/// Adds the reader of height grids in TIFF.
 void furnish(House& house) {
   formats::Readers& readers = house.get<formats::Readers>();
   readers.add({".tif", ".tiff"}, formats::isolated<read_grid>(), is_tiff);

@@ -2,10 +2,8 @@
 // runs.
 #include <gtest/gtest.h>
 
-#include "graphics/bounced_light/room.h"
-#include "scene/action/room.h"
+#include "rooms.h"
 #include "scene/data/bounced_settings.h"
-#include "scene/script/room.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::bounced_light {

@@ -1,17 +1,13 @@
 // Bounced light of a scene that runs: it follows messages and scenarios that change what it comes from.
 #include <gtest/gtest.h>
 
-#include "formats/gltf/room.h"
 #include "formats/gltf/test_mesh_file.h"
-#include "formats/meshes/room.h"
-#include "graphics/bounced_light/room.h"
 #include "graphics/gl/test_context.h"
-#include "graphics/light/room.h"
 #include "graphics/render/frame_views.h"
 #include "graphics/render/light_source.h"
 #include "graphics/render/test_renderer.h"
+#include "rooms.h"
 #include "scene/script/live_scene.h"
-#include "scene/script/room.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::bounced_light {

@@ -10,17 +10,18 @@
 #include <set>
 #include <utility>
 
+#include "base/house.h"
 #include "base/sealed_file.h"
 #include "base/test_data.h"
 #include "base/test_folder.h"
 #include "graphics/bounced_light/bounced_over.h"
-#include "graphics/bounced_light/room.h"
 #include "graphics/bounced_light/test_street.h"
 #include "graphics/bounced_light/transfer_cache.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/render/bake_steps.h"
 #include "graphics/render/frame_views.h"
+#include "rooms.h"
 
 namespace parvis::bounced_light {
 namespace {

@@ -1,10 +1,10 @@
-#include "graphics/bounced_light/room.h"
-
+#include "base/house.h"
 #include "base/progress.h"
 #include "graphics/bounced_light/bounced_over.h"
 #include "graphics/bounced_light/transfer_cache.h"
 #include "graphics/render/bake_steps.h"
 #include "graphics/render/light_source.h"
+#include "rooms.h"
 #include "scene/data/baked_folder.h"
 #include "scene/data/bounced_settings.h"
 #include "scene/script/attribute.h"
@@ -61,6 +61,7 @@ void forget_others(const scene::Scene& scene, const std::set<std::filesystem::pa
 
 }  // namespace
 
+/// The node bouncedLight, and its light over that of render::Lights. After the room that chooses that light.
 void furnish(House& house) {
   house.get<scene::NodeRegistry>().add(bounced_light_schema(), build);
   render::MakeLight& make = house.get<render::Lights>().make;

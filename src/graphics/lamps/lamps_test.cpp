@@ -8,7 +8,6 @@
 #include "graphics/lamps/lamp_light.h"
 #include "graphics/lamps/lamp_process.h"
 #include "graphics/lamps/nodes_lamp.h"
-#include "graphics/light/room.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/photograph.h"
 #include "graphics/reference/scene_lamps.h"
@@ -17,9 +16,9 @@
 #include "graphics/render/fixed_parts.h"
 #include "graphics/render/frame_views.h"
 #include "graphics/render/test_renderer.h"
+#include "rooms.h"
 #include "scene/action/scene_clock.h"
 #include "scene/data/test_scene.h"
-#include "scene/script/room.h"
 #include "scene/script/scene_builder.h"
 #include "scene/script/test_script.h"
 

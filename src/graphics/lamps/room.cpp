@@ -1,14 +1,16 @@
-#include "graphics/lamps/room.h"
-
+#include "base/house.h"
 #include "graphics/lamps/lamp_light.h"
 #include "graphics/lamps/lamp_process.h"
 #include "graphics/lamps/nodes_lamp.h"
 #include "graphics/render/light_source.h"
+#include "rooms.h"
 #include "scene/action/process.h"
 #include "scene/script/node_registry.h"
 
 namespace parvis::lamps {
 
+/// The node lamp, the process that shows what lamps show, and lamps over the light of render::Lights. After
+/// the room that chooses that light.
 void furnish(House& house) {
   add_lamp_node(house.get<scene::NodeRegistry>());
   house.get<action::Processes>().add([] { return std::make_unique<LampProcess>(); });

@@ -8,13 +8,13 @@
 #include <optional>
 
 #include "base/colour.h"
+#include "base/house.h"
 #include "base/image_io.h"
 #include "base/test_folder.h"
 #include "graphics/light/cloud_cover.h"
-#include "graphics/light/room.h"
+#include "rooms.h"
 #include "scene/action/scene_clock.h"
 #include "scene/script/live_scene.h"
-#include "scene/script/room.h"
 #include "scene/script/scene_loader.h"
 
 namespace parvis::light {

@@ -2,14 +2,15 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/house.h"
 #include "graphics/light/day_light.h"
 #include "graphics/light/nodes_day_light.h"
 #include "graphics/light/nodes_shadow_map.h"
 #include "graphics/light/nodes_sun_path.h"
-#include "graphics/light/room.h"
 #include "graphics/light/shadow_settings.h"
 #include "graphics/light/sky_picture.h"
 #include "graphics/light/sun_and_sky.h"
+#include "rooms.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
@@ -126,6 +127,7 @@ NodeSchema exposure_schema() {
 
 }  // namespace parvis::scene
 
+/// Adds the node types, and sun and sky as lights.
 void parvis::light::furnish(House& house) {
   using namespace parvis::scene;
   house.get<render::Lights>().make = light::sun_and_sky;

@@ -7,10 +7,9 @@
 #include "base/colour.h"
 #include "base/image_io.h"
 #include "graphics/light/day_light.h"
-#include "graphics/light/room.h"
 #include "graphics/shading/sky.h"
+#include "rooms.h"
 #include "scene/script/live_scene.h"
-#include "scene/script/room.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::light {

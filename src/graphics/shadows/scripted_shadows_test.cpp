@@ -2,20 +2,16 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "formats/gltf/room.h"
 #include "formats/gltf/test_mesh_file.h"
-#include "formats/meshes/room.h"
 #include "graphics/gl/test_context.h"
-#include "graphics/light/room.h"
 #include "graphics/light/shadow_settings.h"
 #include "graphics/reference/test_wrong_pixels.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/frame_views.h"
 #include "graphics/render/light_source.h"
 #include "graphics/render/test_renderer.h"
-#include "graphics/shadows/room.h"
+#include "rooms.h"
 #include "scene/script/live_scene.h"
-#include "scene/script/room.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::shadows {

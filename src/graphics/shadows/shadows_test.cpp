@@ -4,7 +4,6 @@
 #include <set>
 
 #include "graphics/gl/test_context.h"
-#include "graphics/light/room.h"
 #include "graphics/light/shadow_settings.h"
 #include "graphics/reference/camera_ray.h"
 #include "graphics/reference/test_wrong_pixels.h"
@@ -13,9 +12,9 @@
 #include "graphics/render/test_renderer.h"
 #include "graphics/shadows/chosen_light.h"
 #include "graphics/shadows/near_map_fit.h"
+#include "rooms.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/live_scene.h"
-#include "scene/script/room.h"
 #include "scene/script/scene_builder.h"
 #include "scene/script/test_script.h"
 

@@ -1,8 +1,9 @@
+#include "base/house.h"
 #include "formats/meshes/model_assembly.h"
 #include "formats/meshes/model_node.h"
 #include "life/crowd/crowd_process.h"
 #include "life/crowd/demand.h"
-#include "life/crowd/room.h"
+#include "rooms.h"
 #include "scene/script/attribute.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
@@ -71,6 +72,7 @@ void build_crowd(const Node& node, SceneBuilder& builder, const formats::Readers
 
 }  // namespace
 
+/// Adds the node type and the process.
 void furnish(House& house) {
   scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
   const formats::Readers& readers = house.get<formats::Readers>();

@@ -1,8 +1,9 @@
+#include "base/house.h"
 #include "formats/meshes/model_assembly.h"
 #include "formats/meshes/model_node.h"
 #include "life/traffic/demand.h"
-#include "life/traffic/room.h"
 #include "life/traffic/traffic_process.h"
+#include "rooms.h"
 #include "scene/script/attribute.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
@@ -74,6 +75,7 @@ void build_traffic(const Node& node, SceneBuilder& builder, const formats::Reade
 
 }  // namespace
 
+/// Adds the node type and the process.
 void furnish(House& house) {
   scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
   const formats::Readers& readers = house.get<formats::Readers>();

@@ -1,7 +1,8 @@
 // plant: a grown plant in a scene.
+#include "base/house.h"
 #include "life/vegetation/plant_drawable.h"
-#include "life/vegetation/room.h"
 #include "life/vegetation/scene_plant.h"
+#include "rooms.h"
 #include "scene/script/attribute.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
@@ -65,6 +66,7 @@ void build_plant(const Node& node, SceneBuilder& builder) {
 
 }  // namespace
 
+/// How grown plants join the house: the node `plant`, and what draws and traces it.
 void furnish(House& house) {
   house.get<scene::NodeRegistry>().add(plant_schema(), build_plant);
   house.get<render::Drawables>().add(scene_plants_kind());

@@ -2,10 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "base/memory_budget.h"
-#include "life/vegetation/room.h"
 #include "life/vegetation/scene_plant.h"
+#include "rooms.h"
 #include "scene/script/live_scene.h"
-#include "scene/script/room.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::vegetation {

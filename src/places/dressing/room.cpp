@@ -1,10 +1,12 @@
-#include "places/dressing/room.h"
-
+#include "base/house.h"
 #include "places/dressing/nodes_surfaces.h"
 #include "places/dressing/nodes_terrain.h"
+#include "rooms.h"
 
 namespace parvis::dressing {
 
+/// Adds the node types of this room and their finish steps, which come before those of roads: carriageways
+/// are laid on the ground that is made here.
 void furnish(House& house) {
   scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
   add_terrain_nodes(registry);

@@ -7,14 +7,15 @@
 
 #include "base/bounds.h"
 #include "base/content_hash.h"
+#include "base/house.h"
 #include "base/known_names.h"
 #include "base/memory_budget.h"
 #include "base/random.h"
 #include "life/vegetation/scene_plant.h"
 #include "places/kerbside/kerb_places.h"
 #include "places/kerbside/nodes_map_trees.h"
-#include "places/kerbside/room.h"
 #include "places/kerbside/street_models.h"
+#include "rooms.h"
 #include "scene/data/name_pattern.h"
 #include "scene/data/object_names.h"
 #include "scene/script/attribute.h"
@@ -332,6 +333,8 @@ void show_or_hide(scene::SceneBuilder& builder) {
 
 }  // namespace
 
+/// Adds the node types of this room and their finish step, which comes after that of roads: things stand
+/// beside lanes that are laid.
 void furnish(House& house) {
   scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
   registry.add(with_circle(street_trees_schema()), build_street_trees);

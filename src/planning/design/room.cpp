@@ -1,9 +1,10 @@
-#include "planning/design/room.h"
-
+#include "base/house.h"
 #include "planning/design/design_nodes.h"
+#include "rooms.h"
 
 namespace parvis::design {
 
+/// Adds the node types of this room.
 void furnish(House& house) { add_design_nodes(house); }
 
 }  // namespace parvis::design

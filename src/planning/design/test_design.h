@@ -1,10 +1,9 @@
 // A scene with the nodes of designs, for tests.
 #pragma once
 
-#include "life/vegetation/room.h"
-#include "planning/design/room.h"
+#include "base/house.h"
 #include "planning/design/session.h"
-#include "scene/script/room.h"
+#include "rooms.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::design {

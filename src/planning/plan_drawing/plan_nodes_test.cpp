@@ -1,19 +1,18 @@
 #include <gtest/gtest.h>
 
+#include "base/house.h"
 #include "base/image_io.h"
 #include "formats/drawings/test_drawing.h"
 #include "graphics/gl/test_context.h"
-#include "graphics/light/room.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/frame_views.h"
 #include "graphics/render/test_renderer.h"
 #include "planning/plan_drawing/placed_blocks.h"
-#include "planning/plan_drawing/room.h"
 #include "planning/plan_drawing/text_outlines.h"
+#include "rooms.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/live_scene.h"
-#include "scene/script/room.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::plan_drawing {

@@ -1,10 +1,11 @@
-#include "planning/plan_drawing/room.h"
-
+#include "base/house.h"
 #include "planning/plan_drawing/plan_nodes.h"
+#include "rooms.h"
 #include "scene/script/node_registry.h"
 
 namespace parvis::plan_drawing {
 
+/// Adds the node types.
 void furnish(House& house) {
   scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
   add_drawing_node(registry);

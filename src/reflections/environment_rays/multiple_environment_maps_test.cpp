@@ -4,17 +4,18 @@
 
 #include <array>
 
+#include "base/house.h"
 #include "base/random.h"
 #include "graphics/bounced_light/bounced_over.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
-#include "reflections/environment_rays/room.h"
 #include "reflections/methods/frame.h"
 #include "reflections/methods/registry.h"
 #include "reflections/reference_maps/map_levels.h"
 #include "reflections/reference_maps/placement.h"
 #include "reflections/reference_maps/settings.h"
 #include "reflections/reference_maps/test_square.h"
+#include "rooms.h"
 
 namespace parvis::environment_rays {
 using namespace reference_maps;

@@ -1,10 +1,10 @@
-#include "reflections/environment_rays/room.h"
-
 #include <algorithm>
 
+#include "base/house.h"
 #include "reflections/environment_rays/multiple_environment_maps.h"
 #include "reflections/methods/registry.h"
 #include "reflections/reference_maps/settings.h"
+#include "rooms.h"
 
 namespace parvis::environment_rays {
 namespace {
@@ -16,6 +16,7 @@ bool suits(const scene::Scene& scene) {
 
 }  // namespace
 
+/// Adds them to the house's registries.
 void furnish(House& house) {
   house.get<methods::Registry>().add(
       {.name = "multiple_environment_maps",

@@ -1,9 +1,9 @@
-#include "reflections/local_maps/room.h"
-
+#include "base/house.h"
 #include "reflections/local_maps/local_environment_maps.h"
 #include "reflections/local_maps/local_map_settings.h"
 #include "reflections/methods/registry.h"
 #include "reflections/reference_maps/settings.h"
+#include "rooms.h"
 #include "scene/script/attribute.h"
 
 namespace parvis::local_maps {
@@ -28,6 +28,7 @@ void read_attributes(const scene::Node& node, methods::Settings& settings) {
 
 }  // namespace
 
+/// Adds them to the house's registries.
 void furnish(House& house) {
   house.get<methods::Registry>().add(
       {.name = "local_environment_maps",

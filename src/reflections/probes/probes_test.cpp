@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "base/house.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/render/test_room.h"
@@ -8,7 +9,7 @@
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
-#include "reflections/probes/room.h"
+#include "rooms.h"
 
 namespace parvis::probes {
 namespace {

@@ -1,8 +1,8 @@
-#include "reflections/probes/room.h"
-
+#include "base/house.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
+#include "rooms.h"
 #include "scene/script/attribute.h"
 
 namespace parvis::probes {
@@ -24,6 +24,7 @@ Made make(const scene::Scene& scene, render::Renderer&, std::unique_ptr<methods:
 
 }  // namespace
 
+/// Adds them to the house's registries.
 void furnish(House& house) {
   using namespace scene::attribute;
   methods::Registry& registry = house.get<methods::Registry>();

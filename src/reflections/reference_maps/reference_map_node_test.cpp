@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "reflections/reference_maps/room.h"
 #include "reflections/reference_maps/scene_maps.h"
 #include "reflections/reference_maps/settings.h"
+#include "rooms.h"
 #include "scene/script/test_house.h"
 #include "scene/script/test_script.h"
 

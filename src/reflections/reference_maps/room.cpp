@@ -1,5 +1,4 @@
-#include "reflections/reference_maps/room.h"
-
+#include "base/house.h"
 #include "graphics/render/bake_steps.h"
 #include "reflections/methods/registry.h"
 #include "reflections/reference_maps/bake_step.h"
@@ -7,9 +6,11 @@
 #include "reflections/reference_maps/reference_map_node.h"
 #include "reflections/reference_maps/settings.h"
 #include "reflections/reference_maps/simple_blend.h"
+#include "rooms.h"
 
 namespace parvis::reference_maps {
 
+/// Adds them to the house's registries.
 void furnish(House& house) {
   house.get<methods::Registry>().add(
       {.name = "simple_blend",

@@ -1,7 +1,7 @@
-#include "reflections/reflector_maps/room.h"
-
+#include "base/house.h"
 #include "graphics/render/bake_steps.h"
 #include "reflections/reflector_maps/reflector_cache.h"
+#include "rooms.h"
 
 namespace parvis::reflector_maps {
 namespace {
@@ -22,6 +22,7 @@ void forget_others(const scene::Scene& scene, const std::set<std::filesystem::pa
 
 }  // namespace
 
+/// Adds it to the house's registries.
 void furnish(House& house) {
   house.get<render::BakeSteps>().add({.name = "reflector maps of curved mirrors and solid glass",
                                       .run = bake,

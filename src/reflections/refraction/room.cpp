@@ -1,10 +1,11 @@
-#include "reflections/refraction/room.h"
-
+#include "base/house.h"
 #include "reflections/methods/registry.h"
 #include "reflections/refraction/refracted_objects.h"
+#include "rooms.h"
 
 namespace parvis::refraction {
 
+/// Adds them to the house's registries.
 void furnish(House& house) {
   house.get<methods::Registry>().add(
       {.name = "refracted objects",

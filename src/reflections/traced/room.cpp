@@ -1,7 +1,7 @@
-#include "reflections/traced/room.h"
-
+#include "base/house.h"
 #include "reflections/methods/registry.h"
 #include "reflections/traced/traced_reflections.h"
+#include "rooms.h"
 
 namespace parvis::traced {
 namespace {
@@ -15,6 +15,7 @@ Result<std::unique_ptr<methods::Reflections>> make(const scene::Scene& scene, re
 
 }  // namespace
 
+/// Adds it to the house's registries.
 void furnish(House& house) {
   house.get<methods::Registry>().add(
       {.name = "traced",

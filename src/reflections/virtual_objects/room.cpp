@@ -1,10 +1,10 @@
-#include "reflections/virtual_objects/room.h"
-
+#include "base/house.h"
 #include "reflections/methods/registry.h"
 #include "reflections/reflector_maps/settings.h"
 #include "reflections/virtual_objects/long_edges.h"
 #include "reflections/virtual_objects/search_settings.h"
 #include "reflections/virtual_objects/virtual_objects.h"
+#include "rooms.h"
 #include "scene/script/attribute.h"
 
 namespace parvis::virtual_objects {
@@ -59,6 +59,7 @@ void read_virtual_objects(const scene::Node& node, methods::Settings& settings) 
 
 }  // namespace
 
+/// Adds them to the house's registries.
 void furnish(House& house) {
   methods::Registry& registry = house.get<methods::Registry>();
   registry.add({.name = virtual_objects_method,

@@ -1,9 +1,10 @@
 #include <algorithm>
 
+#include "base/house.h"
+#include "rooms.h"
 #include "scene/action/actions.h"
 #include "scene/action/animation_process.h"
 #include "scene/action/key_names.h"
-#include "scene/action/room.h"
 #include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
 
@@ -207,6 +208,7 @@ const std::vector<std::string>& key_names() {
   return names;
 }
 
+/// Adds their processes and the node types keys, timer, proximity; path and tour with their keyframes.
 void furnish(House& house) {
   scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
   registry.add(keys_schema(), build_nothing);

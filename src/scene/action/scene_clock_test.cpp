@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/action/room.h"
+#include "base/house.h"
+#include "rooms.h"
 #include "scene/data/test_scene.h"
-#include "scene/script/room.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::action {

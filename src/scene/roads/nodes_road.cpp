@@ -6,13 +6,13 @@
 #include "base/known_names.h"
 #include "base/memory_budget.h"
 #include "formats/terrain/open_rooms.h"
+#include "rooms.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/object_names.h"
 #include "scene/roads/paving.h"
 #include "scene/roads/road_builder.h"
 #include "scene/roads/road_data.h"
 #include "scene/roads/road_from_polygons.h"
-#include "scene/roads/room.h"
 #include "scene/roads/shaped_terrain.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
@@ -181,6 +181,7 @@ void finish_roads(SceneBuilder& builder) {
 
 }  // namespace parvis::scene
 
+/// Adds the node types, and the step that makes lanes of roads.
 void parvis::roads::furnish(House& house) {
   using namespace parvis::scene;
   NodeRegistry& registry = house.get<NodeRegistry>();

@@ -1,9 +1,10 @@
-#include "scene/script/room.h"
-
+#include "base/house.h"
+#include "rooms.h"
 #include "scene/script/script_nodes.h"
 
 namespace parvis::script {
 
+/// Adds include, group; camera; scenario, override.
 void furnish(House& house) {
   scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
   scene::add_grouping_nodes(registry);

@@ -2,11 +2,12 @@
 // the scene. Nothing else knows them.
 #pragma once
 
+#include "base/house.h"
+#include "rooms.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/attribute.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/placement.h"
-#include "scene/script/room.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::scene {

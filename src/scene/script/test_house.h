@@ -1,15 +1,8 @@
 // The rooms of a scene, for tests of what they do together.
 #pragma once
 
-#include "formats/city_models/room.h"
-#include "formats/gltf/room.h"
-#include "formats/meshes/room.h"
-#include "formats/terrain/room.h"
-#include "graphics/light/room.h"
-#include "life/traffic/room.h"
-#include "scene/action/room.h"
-#include "scene/roads/room.h"
-#include "scene/script/room.h"
+#include "base/house.h"
+#include "rooms.h"
 
 namespace parvis::scene {
 
