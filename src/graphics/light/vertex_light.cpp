@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <span>
@@ -270,13 +271,31 @@ void VertexLight::refine(const reference::RayScene& scene, const SkyTable& sky, 
   rays_ += added;
 }
 
+/// What surfaces reflect, in the mean of all rays: the mean over the blocked rays that brought it, times the
+/// fraction of all rays that are blocked (a ratio estimator: Cochran 1977, Sampling techniques, chapter 6).
+/// Fewer rays bring it than are known to be blocked, above all under a new sky.
+glm::vec3 VertexLight::mean_reflected(std::size_t v) const {
+  constexpr std::uint64_t every_third = 0x9249'2492'4924'9249u;
+  static_assert(rays_per_bounce == 3);
+  const auto first_bits = [](int count) {
+    return count >= int(bits_per_word) ? ~std::uint64_t(0) : (std::uint64_t(1) << std::max(count, 0)) - 1;
+  };
+  int blocked = 0, bringing = 0;
+  for (int first = 0; first < rays_; first += int(bits_per_word)) {
+    const std::uint64_t closed =
+        ~open_[std::size_t(first) / bits_per_word * vertices_.size() + v] & first_bits(rays_ - first);
+    const std::uint64_t brings = every_third << (3 - first % 3) % 3;
+    blocked += std::popcount(closed);
+    bringing += std::popcount(closed & brings & first_bits(relit_rays_ - first));
+  }
+  return bringing > 0 ? float(blocked) / float(rays_ * bringing) * sums_[v].reflected : glm::vec3(0.0f);
+}
+
 std::vector<glm::vec3> VertexLight::sky_irradiance() const {
-  const float per_ray = 1.0f / float(std::max(1, rays_)),
-              per_bounce = 1.0f / float(std::max(1, bounces_of(relit_rays_)));
   std::vector<glm::vec3> result;
   result.reserve(sums_.size());
-  for (const Sums& sums : sums_)
-    result.push_back(glm::pi<float>() * (per_ray * sums.sky + per_bounce * sums.reflected));
+  for (std::size_t v = 0; v < sums_.size(); ++v)
+    result.push_back(glm::pi<float>() * (sums_[v].sky / float(std::max(1, rays_)) + mean_reflected(v)));
   return result;
 }
 

@@ -60,6 +60,7 @@ class VertexLight {
   class Turn;
   void open(std::size_t vertex, std::size_t ray, glm::vec3 radiance);
   bool is_open(std::size_t vertex, std::size_t ray) const;
+  glm::vec3 mean_reflected(std::size_t vertex) const;
 
   std::vector<LitVertex> vertices_;
   std::vector<Sums> sums_;

