@@ -1,7 +1,7 @@
 #include "house/rooms.h"
 
 #include "reflections/methods/registry.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::house {
 namespace {

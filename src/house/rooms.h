@@ -1,4 +1,4 @@
-// All rooms of the house. A room joins by one line in src/rooms.h.
+// All rooms of the house. A room joins by one line in src/room_list.h.
 #pragma once
 
 #include <span>

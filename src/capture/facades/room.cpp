@@ -7,7 +7,7 @@
 #include "capture/facades/facade_gltf.h"
 #include "capture/facades/placed_facade.h"
 #include "capture/facades/recorded_shadows.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"

@@ -24,7 +24,7 @@
 #include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
 #include "graphics/shading/tone_curve.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/data/sun_shadows.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/scene_loader.h"

@@ -7,7 +7,7 @@
 #include "capture/trees/tree_drawable.h"
 #include "capture/trees/tree_file.h"
 #include "capture/trees/wind.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/attribute.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"

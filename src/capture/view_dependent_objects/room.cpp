@@ -8,7 +8,7 @@
 #include "capture/view_dependent_objects/object_drawable.h"
 #include "capture/view_dependent_objects/placed_object.h"
 #include "formats/readers/readers.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"

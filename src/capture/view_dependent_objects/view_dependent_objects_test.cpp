@@ -14,7 +14,7 @@
 #include "graphics/render/drawables.h"
 #include "graphics/render/frame_views.h"
 #include "graphics/render/renderer.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/test_script.h"
 

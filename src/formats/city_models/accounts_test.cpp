@@ -4,7 +4,7 @@
 #include "base/house.h"
 #include "base/test_folder.h"
 #include "formats/readers/readers.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::city_models {
 namespace {

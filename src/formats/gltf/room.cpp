@@ -2,7 +2,7 @@
 #include "formats/gltf/gltf_reader.h"
 #include "formats/readers/content.h"
 #include "formats/readers/isolated_reader.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::gltf {
 namespace {

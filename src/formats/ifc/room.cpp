@@ -3,7 +3,7 @@
 #include "formats/readers/content.h"
 #include "formats/readers/isolated_reader.h"
 #include "formats/readers/plain_account.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::ifc {
 namespace {

@@ -8,7 +8,7 @@
 #include "base/image_io.h"
 #include "base/test_folder.h"
 #include "formats/inventor/test_files.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::inventor {
 namespace {

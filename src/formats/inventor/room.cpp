@@ -1,7 +1,7 @@
 #include "base/house.h"
 #include "formats/inventor/inventor_reader.h"
 #include "formats/readers/isolated_reader.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::inventor {
 namespace {

@@ -1,7 +1,7 @@
 #include "base/house.h"
 #include "formats/meshes/mesh_formats.h"
 #include "formats/meshes/mesh_nodes.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::meshes {
 

@@ -2,7 +2,7 @@
 #include "formats/readers/isolated_reader.h"
 #include "formats/readers/plain_account.h"
 #include "formats/terrain/terrain.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::terrain {
 namespace {

@@ -2,7 +2,7 @@
 // runs.
 #include <gtest/gtest.h>
 
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/data/bounced_settings.h"
 #include "scene/script/test_script.h"
 

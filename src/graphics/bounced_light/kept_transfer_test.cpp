@@ -21,7 +21,7 @@
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/render/bake_steps.h"
 #include "graphics/render/frame_views.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::bounced_light {
 namespace {

@@ -4,7 +4,7 @@
 #include "graphics/bounced_light/transfer_cache.h"
 #include "graphics/render/bake_steps.h"
 #include "graphics/render/light_source.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/data/baked_folder.h"
 #include "scene/data/bounced_settings.h"
 #include "scene/script/attribute.h"

@@ -16,7 +16,7 @@
 #include "graphics/render/fixed_parts.h"
 #include "graphics/render/frame_views.h"
 #include "graphics/render/test_renderer.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/action/scene_clock.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/scene_builder.h"

@@ -3,7 +3,7 @@
 #include "graphics/lamps/lamp_process.h"
 #include "graphics/lamps/nodes_lamp.h"
 #include "graphics/render/light_source.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/action/process.h"
 #include "scene/script/node_registry.h"
 

@@ -12,7 +12,7 @@
 #include "base/image_io.h"
 #include "base/test_folder.h"
 #include "graphics/light/cloud_cover.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/action/scene_clock.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/scene_loader.h"

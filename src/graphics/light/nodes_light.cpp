@@ -10,7 +10,7 @@
 #include "graphics/light/shadow_settings.h"
 #include "graphics/light/sky_picture.h"
 #include "graphics/light/sun_and_sky.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"

@@ -8,7 +8,7 @@
 #include "base/image_io.h"
 #include "graphics/light/day_light.h"
 #include "graphics/shading/sky.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/test_script.h"
 

@@ -8,7 +8,7 @@
 
 #include "base/house.h"
 #include "graphics/lit_objects/lighting_process.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"

@@ -1,6 +1,6 @@
 #include "base/house.h"
 #include "graphics/shadows/chosen_light.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::shadows {
 

@@ -10,7 +10,7 @@
 #include "graphics/render/frame_views.h"
 #include "graphics/render/light_source.h"
 #include "graphics/render/test_renderer.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/test_script.h"
 

@@ -12,7 +12,7 @@
 #include "graphics/render/test_renderer.h"
 #include "graphics/shadows/chosen_light.h"
 #include "graphics/shadows/near_map_fit.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/scene_builder.h"

@@ -1,4 +1,4 @@
-// A room that nothing names: the test that a room joins by its own folder and one line in src/rooms.h.
+// A room that nothing names: the test that a room joins by its own folder and one line in src/room_list.h.
 // Balloons: mirror balls that rise when a message says so, a reflection method and a bake step.
 #pragma once
 

@@ -3,7 +3,7 @@
 #include "formats/meshes/model_node.h"
 #include "life/crowd/crowd_process.h"
 #include "life/crowd/demand.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/attribute.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"

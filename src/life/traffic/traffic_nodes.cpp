@@ -3,7 +3,7 @@
 #include "formats/meshes/model_node.h"
 #include "life/traffic/demand.h"
 #include "life/traffic/traffic_process.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/attribute.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"

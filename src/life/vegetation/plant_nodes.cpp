@@ -2,7 +2,7 @@
 #include "base/house.h"
 #include "life/vegetation/plant_drawable.h"
 #include "life/vegetation/scene_plant.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/attribute.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"

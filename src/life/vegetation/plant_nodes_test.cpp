@@ -3,7 +3,7 @@
 
 #include "base/memory_budget.h"
 #include "life/vegetation/scene_plant.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/test_script.h"
 

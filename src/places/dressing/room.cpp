@@ -1,7 +1,7 @@
 #include "base/house.h"
 #include "places/dressing/nodes_surfaces.h"
 #include "places/dressing/nodes_terrain.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::dressing {
 

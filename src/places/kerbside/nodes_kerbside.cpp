@@ -15,7 +15,7 @@
 #include "places/kerbside/kerb_places.h"
 #include "places/kerbside/nodes_map_trees.h"
 #include "places/kerbside/street_models.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/data/name_pattern.h"
 #include "scene/data/object_names.h"
 #include "scene/script/attribute.h"

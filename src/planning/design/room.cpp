@@ -1,6 +1,6 @@
 #include "base/house.h"
 #include "planning/design/design_nodes.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::design {
 

@@ -3,7 +3,7 @@
 
 #include "base/house.h"
 #include "planning/design/session.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::design {

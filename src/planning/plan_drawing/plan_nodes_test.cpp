@@ -10,7 +10,7 @@
 #include "graphics/render/test_renderer.h"
 #include "planning/plan_drawing/placed_blocks.h"
 #include "planning/plan_drawing/text_outlines.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/test_script.h"

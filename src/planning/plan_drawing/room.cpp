@@ -1,6 +1,6 @@
 #include "base/house.h"
 #include "planning/plan_drawing/plan_nodes.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/node_registry.h"
 
 namespace parvis::plan_drawing {

@@ -15,7 +15,7 @@
 #include "reflections/reference_maps/placement.h"
 #include "reflections/reference_maps/settings.h"
 #include "reflections/reference_maps/test_square.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::environment_rays {
 using namespace reference_maps;

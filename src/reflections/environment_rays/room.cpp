@@ -4,7 +4,7 @@
 #include "reflections/environment_rays/multiple_environment_maps.h"
 #include "reflections/methods/registry.h"
 #include "reflections/reference_maps/settings.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::environment_rays {
 namespace {

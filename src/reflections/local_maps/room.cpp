@@ -3,7 +3,7 @@
 #include "reflections/local_maps/local_map_settings.h"
 #include "reflections/methods/registry.h"
 #include "reflections/reference_maps/settings.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/attribute.h"
 
 namespace parvis::local_maps {

@@ -9,7 +9,7 @@
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::probes {
 namespace {

@@ -2,7 +2,7 @@
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/attribute.h"
 
 namespace parvis::probes {

@@ -4,7 +4,7 @@
 
 #include "reflections/reference_maps/scene_maps.h"
 #include "reflections/reference_maps/settings.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/test_house.h"
 #include "scene/script/test_script.h"
 

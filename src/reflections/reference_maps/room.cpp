@@ -6,7 +6,7 @@
 #include "reflections/reference_maps/reference_map_node.h"
 #include "reflections/reference_maps/settings.h"
 #include "reflections/reference_maps/simple_blend.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::reference_maps {
 

@@ -1,7 +1,7 @@
 #include "base/house.h"
 #include "graphics/render/bake_steps.h"
 #include "reflections/reflector_maps/reflector_cache.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::reflector_maps {
 namespace {

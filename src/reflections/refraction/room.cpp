@@ -1,7 +1,7 @@
 #include "base/house.h"
 #include "reflections/methods/registry.h"
 #include "reflections/refraction/refracted_objects.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::refraction {
 

@@ -1,7 +1,7 @@
 #include "base/house.h"
 #include "reflections/methods/registry.h"
 #include "reflections/traced/traced_reflections.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::traced {
 namespace {

@@ -4,7 +4,7 @@
 #include "reflections/virtual_objects/long_edges.h"
 #include "reflections/virtual_objects/search_settings.h"
 #include "reflections/virtual_objects/virtual_objects.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/attribute.h"
 
 namespace parvis::virtual_objects {

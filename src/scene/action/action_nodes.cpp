@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "base/house.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/action/actions.h"
 #include "scene/action/animation_process.h"
 #include "scene/action/key_names.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/house.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/test_script.h"
 

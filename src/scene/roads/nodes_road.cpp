@@ -6,7 +6,7 @@
 #include "base/known_names.h"
 #include "base/memory_budget.h"
 #include "formats/terrain/open_rooms.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/object_names.h"
 #include "scene/roads/paving.h"

@@ -1,5 +1,5 @@
 #include "base/house.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/script/script_nodes.h"
 
 namespace parvis::script {

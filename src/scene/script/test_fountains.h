@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/house.h"
-#include "rooms.h"
+#include "room_list.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/attribute.h"
 #include "scene/script/live_scene.h"

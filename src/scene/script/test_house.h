@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/house.h"
-#include "rooms.h"
+#include "room_list.h"
 
 namespace parvis::scene {
 
