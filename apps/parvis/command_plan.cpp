@@ -11,6 +11,8 @@
 #include "base/files.h"
 #include "base/known_names.h"
 #include "commands.h"
+#include "graphics/gl/context.h"
+#include "plan_council.h"
 #include "planning/design/design_file.h"
 #include "planning/design/difference.h"
 #include "planning/design/scene_surfaces.h"
@@ -29,6 +31,8 @@ struct Arguments {
   std::vector<std::string> commands;
   std::filesystem::path command_file, import_json, output, json;
   std::string compared;  ///< a design that the scene's is compared with
+  CouncilOptions council;
+  bool gives_scale = false;
   bool lists_objects = false, lists_kinds = false, keeps_journal = false;
 };
 
@@ -48,12 +52,17 @@ void list_objects(const design::Session& session) {
                each.text(), each.is_locked ? ", locked" : "");
 }
 
-/// Prints each difference that turns the other design into this one, and their counts.
-Status list_differences(const design::Session& session, const house::Play& play, const std::string& other) {
+/// Whether the scene has a design of that name. The error names those that it has.
+Status expect_design(const house::Play& play, const std::string& name) {
   std::vector<std::string> names;
   for (const scene::Node* node : design::designs_of(play.live())) names.push_back(node->text("name"));
-  if (std::ranges::find(names, other) == names.end())
-    return error("the scene has no design \"{}\"{}", other.substr(0, 40), names_that_exist(other, names));
+  if (std::ranges::find(names, name) != names.end()) return Done{};
+  return error("the scene has no design \"{}\"{}", name.substr(0, 40), names_that_exist(name, names));
+}
+
+/// Prints each difference that turns the other design into this one, and their counts.
+Status list_differences(const design::Session& session, const house::Play& play, const std::string& other) {
+  if (Status status = expect_design(play, other); !status) return status;
   std::array<int, 4> counts{};
   for (const design::Difference& each :
        design::differences(design::placed_objects(play.scene, play.live(), other), session.objects())) {
@@ -126,25 +135,31 @@ Status write_drawings(const Arguments& arguments, const house::Play& play) {
   return Done{};
 }
 
-bool asks_for_nothing(const Arguments& a) {
-  return a.commands.empty() && a.compared.empty() && !a.lists_objects && !a.lists_kinds && !a.keeps_journal &&
-         std::ranges::all_of(
-             std::array{&a.command_file, &a.import_json, &a.json, &a.output, &a.pdf, &a.dxf, &a.csv},
-             [](const std::filesystem::path* file) { return file->empty(); });
+/// The sheet that compares the design with another.
+Status write_council_of(const Arguments& arguments, const design::Session& session, house::Stage& stage) {
+  CouncilOptions options = arguments.council;
+  options.before = arguments.compared;
+  if (options.before == session.name())
+    return error("--compare {}: this is the design itself; name another with --design", options.before);
+  options.title =
+      arguments.sheet.title.empty() ? arguments.scene.scene.stem().string() : arguments.sheet.title;
+  options.subtitle = arguments.sheet.subtitle;
+  if (arguments.gives_scale) options.scale = arguments.sheet.scale;
+  return write_council(stage, session, options);
 }
 
-Status plan(const Arguments& arguments) {
-  if (asks_for_nothing(arguments))
-    return error(
-        "nothing is asked for: give commands (--do, --file), --list, --kinds, or a file to write (-o, "
-        "--json, "
-        "--pdf, --dxf, --csv)");
-  if (Status status = arguments.scene.expect_one_scenario(); !status) return status;
-  Result<house::Play> play = arguments.scene.open_play();
-  if (!play) return play.errors();
-  if (arguments.lists_kinds) list_kinds(play->scene);
-  Result<design::Session> session = design::Session::open(play->scene, play->live(), arguments.design,
-                                                          design::resting_heights(play->scene));
+bool asks_for_nothing(const Arguments& a) {
+  return a.commands.empty() && a.compared.empty() && !a.lists_objects && !a.lists_kinds && !a.keeps_journal &&
+         std::ranges::all_of(std::array{&a.command_file, &a.import_json, &a.json, &a.output, &a.pdf, &a.dxf,
+                                        &a.csv, &a.council.file},
+                             [](const std::filesystem::path* file) { return file->empty(); });
+}
+
+/// `stage`: where pictures are asked for, the one of the play.
+Status work_on(const Arguments& arguments, house::Play& play, house::Stage* stage) {
+  if (arguments.lists_kinds) list_kinds(play.scene);
+  Result<design::Session> session =
+      design::Session::open(play.scene, play.live(), arguments.design, design::resting_heights(play.scene));
   if (!session) return session.errors();
   if (arguments.keeps_journal) {
     const Result<std::string> restored =
@@ -161,17 +176,38 @@ Status plan(const Arguments& arguments) {
   if (Status status = run_commands(arguments, *session); !status) return status;
   if (arguments.lists_objects) list_objects(*session);
   if (!arguments.compared.empty())
-    if (Status status = list_differences(*session, *play, arguments.compared); !status) return status;
+    if (Status status = list_differences(*session, play, arguments.compared); !status) return status;
   if (!arguments.json.empty())
-    if (Status status = write_file(arguments.json, design::json_of(play->scene, *session)); !status)
+    if (Status status = write_file(arguments.json, design::json_of(play.scene, *session)); !status)
       return status;
   if (!arguments.output.empty()) {
-    if (Status status = design::save(*session, play->scene.file, arguments.output); !status) return status;
+    if (Status status = design::save(*session, play.scene.file, arguments.output); !status) return status;
     fmt::print("{}: design \"{}\" with {} objects\n", arguments.output.string(), session->name(),
                session->objects().size());
     if (Status status = session->note_saved(); !status) return status;
   }
-  return write_drawings(arguments, *play);
+  if (Status status = write_drawings(arguments, play); !status) return status;
+  return stage ? write_council_of(arguments, *session, *stage) : Status(Done{});
+}
+
+Status plan(const Arguments& arguments) {
+  if (asks_for_nothing(arguments))
+    return error(
+        "nothing is asked for: give commands (--do, --file), --list, --kinds, or a file to write (-o, "
+        "--json, "
+        "--pdf, --dxf, --csv, --council)");
+  if (Status status = arguments.scene.expect_one_scenario(); !status) return status;
+  if (!arguments.council.file.empty()) {
+    if (arguments.compared.empty()) return error("--council needs two designs: --design NEW --compare OLD");
+    const Result<gl::Context> context = gl::Context::create_headless();
+    if (!context) return context.errors();
+    Result<std::unique_ptr<house::Stage>> stage = arguments.scene.open_stage();
+    if (!stage) return stage.errors();
+    return work_on(arguments, (*stage)->play(), stage->get());
+  }
+  Result<house::Play> play = arguments.scene.open_play();
+  if (!play) return play.errors();
+  return work_on(arguments, *play, nullptr);
 }
 
 }  // namespace
@@ -206,7 +242,19 @@ void add_plan(CLI::App& app, Chosen& chosen) {
   command->add_option("--dxf", arguments->dxf,
                       "A drawing in metres, in map coordinates where there are some");
   command->add_option("--csv", arguments->csv, "A table of trees and placed objects");
-  command->add_option("--scale", arguments->sheet.scale, "Of the sheet, 1 : SCALE")->capture_default_str();
+  command->add_option(
+      "--council", arguments->council.file,
+      "The sheet that compares --design with --compare (.pdf): pictures before and after, plan, "
+      "table, hours of sun");
+  command
+      ->add_option("--view", arguments->council.views,
+                   "A camera of the scene for --council (default: all of them); may repeat")
+      ->allow_extra_args(false);
+  command->add_option("--sun-day", arguments->council.day, "Day of the hours of sun of --council")
+      ->capture_default_str();
+  CLI::Option* scale =
+      command->add_option("--scale", arguments->sheet.scale, "Of the plan, 1 : SCALE (--council: what fits)")
+          ->capture_default_str();
   command->add_option("--paper", arguments->sheet.paper, "A4, A3, A2, A1 or A0, landscape")
       ->capture_default_str();
   command->add_option("--centre", arguments->centre, "Middle of the sheet, metres: X,Y in the scene's frame");
@@ -221,7 +269,10 @@ void add_plan(CLI::App& app, Chosen& chosen) {
       "Example: parvis plan scenes/planned_square.xp --do \"row umbrella from 0,-6 to 12,-6 count 4\" "
       "-o scenes/planned_square.xp\n"
       "         parvis plan out/paper/paper.xp --pdf plan.pdf --scale 500 --dxf plan.dxf --csv plan.csv");
-  command->callback([arguments, &chosen] { chosen = [arguments] { return plan(*arguments); }; });
+  command->callback([arguments, scale, &chosen] {
+    arguments->gives_scale = scale->count() > 0;
+    chosen = [arguments] { return plan(*arguments); };
+  });
 }
 
 }  // namespace parvis

@@ -10,6 +10,7 @@
 
 #include "base/progress.h"
 #include "commands.h"
+#include "dates.h"
 #include "graphics/gl/context.h"
 #include "graphics/light/day_light.h"
 #include "graphics/light/sun_study.h"
@@ -36,19 +37,6 @@ struct SunArguments {
 };
 
 constexpr int max_days = 366;
-
-/// The year and the day of it.
-Result<std::pair<int, int>> read_date(const std::string& text) {
-  int year = 0, month = 0, day = 0;
-  char rest = 0;
-  const bool is_date = std::sscanf(text.c_str(), "%4d-%2d-%2d%c", &year, &month, &day, &rest) == 3;
-  constexpr int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-  const bool is_month = is_date && month >= 1 && month <= 12;
-  const int last = is_month ? days[month - 1] + (month == 2 && light::is_leap_year(year) ? 1 : 0) : 0;
-  if (!is_month || day < 1 || day > last || year < light::min_year || year > light::max_year)
-    return error("{} is not a date from {} to {} as 2026-03-21", text, light::min_year, light::max_year);
-  return std::pair{year, light::day_of_year(year, month, day)};
-}
 
 /// The place of the scene's dayLight, or --place with its clock: by default that of the sun in whole hours.
 light::PlaceAndTime read_place(const SunArguments& arguments, const scene::Scene& scene) {

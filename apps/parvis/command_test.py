@@ -885,6 +885,29 @@ class Plans(InAFolder):
         self.assertEqual([(row["kind"], row["name"], row["value"], row["unit"]) for row in rows[1:]],
                          [("slope", "ramp", "0.0500", "1")])
 
+    def test_the_sheet_for_the_council(self):
+        scene = self.folder / "two.xp"
+        scene.write_text(
+            "dayLight(latitude=43.7, longitude=7.27, standardMeridian=1, julianDay=80, timeOfDay=12)\n"
+            'design(name=ground) { surface(name=floor, material=plain, outline="-30 -30, 30 -30, 30 30, -30 30") }\n'
+            'design(name=old) { placed(name=a, kind=kiosk, position="0 0 0") }\n'
+            'design(name=new, visible=0) { placed(name=b, kind=umbrella, position="6 0 0") }\n'
+            'camera(name="street", position="0 -12 1.7", target="2 0 1")\n')
+        sheet = self.folder / "council.pdf"
+        done = run("plan", scene, "--design", "new", "--compare", "old", "--council", sheet)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("1 views, plan at 1:100, 2 objects that differ, hours of sun on 21 March 2026", done.stdout)
+        self.assertTrue(sheet.read_bytes().startswith(b"%PDF"))
+        sheet.unlink()
+        for wrong, said in ((["--view", "balcony"], "street"), (["--sun-day", "2026-02-30"], "not a date"),
+                            (["--design", "old"], "itself"), (["--scale", "1"], "1:5")):
+            refused = run("plan", scene, *(["--design", "new"] if "--design" not in wrong else []),
+                          "--compare", "old", "--council", sheet, *wrong)
+            self.assertEqual(refused.returncode, 1, wrong)
+            self.assertIn(said, refused.stderr)
+            self.assertFalse(sheet.exists())
+        self.assertIn("--compare", run("plan", scene, "--council", sheet).stderr)
+
     def test_it_says_what_it_needs(self):
         scene = self.write_scene()
         self.assertEqual(run("plan", scene).returncode, 1)

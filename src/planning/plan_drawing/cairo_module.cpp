@@ -114,4 +114,5 @@ TextOutlines outlines_of(const formats::DrawingText& text) {
 }  // namespace parvis::plan_drawing
 
 PARVIS_MODULE(parvis::plan_drawing::CairoFunctions){parvis::plan_drawing::outlines_of,
-                                                    parvis::plan_drawing::draw_sheet};
+                                                    parvis::plan_drawing::draw_sheet,
+                                                    parvis::plan_drawing::draw_council_sheet};

@@ -57,7 +57,7 @@ void Page::picture(const Image8& image, const std::string& jpeg, glm::dvec2 min,
       &cairo_surface_destroy);
   if (!jpeg.empty()) {
     // Cairo keeps the bytes until the surface is written out, which is after this function.
-    auto* const kept = new std::string(jpeg);
+    std::string* const kept = std::make_unique<std::string>(jpeg).release();
     cairo_surface_set_mime_data(
         surface.get(), CAIRO_MIME_TYPE_JPEG,
         reinterpret_cast<const unsigned char*>(

@@ -21,6 +21,10 @@ struct Sheet {
 /// Width and height of a paper in landscape, millimetres; nothing for a name that is none of A0 to A4.
 std::optional<glm::dvec2> paper_size_mm(const std::string& paper);
 
+inline constexpr double min_plan_scale = 5.0, max_plan_scale = 50'000.0;
+/// Errors: a scale that is not between these.
+Status check_scale(double scale);
+
 /// Draws what lies on the sheet, with frame, grid, title block, legend, scale bar and north. Errors: an
 /// unknown paper, a scale beyond 1:5 to 1:50,000, a sheet on which nothing lies.
 Status write_plan_pdf(const std::filesystem::path& file, const ScenePlan& plan, const Sheet& sheet);

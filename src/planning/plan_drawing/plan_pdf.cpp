@@ -13,12 +13,15 @@ std::optional<glm::dvec2> paper_size_mm(const std::string& paper) {
   return found == sizes.end() ? std::nullopt : std::optional(found->second);
 }
 
+Status check_scale(double scale) {
+  if (scale >= min_plan_scale && scale <= max_plan_scale) return Done{};
+  return error("a scale of 1:{:g}; expected 1:{:g} to 1:{:g}", scale, min_plan_scale, max_plan_scale);
+}
+
 Status write_plan_pdf(const std::filesystem::path& file, const ScenePlan& plan, const Sheet& sheet) {
-  constexpr double min_scale = 5.0, max_scale = 50'000.0;
   const std::optional<glm::dvec2> size_mm = paper_size_mm(sheet.paper);
   if (!size_mm) return error("\"{}\" is no paper; expected A4, A3, A2, A1 or A0", sheet.paper);
-  if (!(sheet.scale >= min_scale && sheet.scale <= max_scale))
-    return error("a scale of 1:{:g}; expected 1:{:g} to 1:{:g}", sheet.scale, min_scale, max_scale);
+  if (Status status = check_scale(sheet.scale); !status) return status;
   Sheet centred = sheet;
   if (!sheet.centre) centred.centre = plan.middle();
   return write_atomically(file, [&](const std::filesystem::path& temporary) {
