@@ -89,8 +89,18 @@ std::optional<planner::Pointer> Input::pointer() const {
   const bool is_inside = pointer.pixel.x >= 0.0 && pointer.pixel.y >= 0.0 &&
                          pointer.pixel.x < pointer.size.x && pointer.pixel.y < pointer.size.y;
   const bool is_dragging = planning_.is_on() && planning_.tool()->is_dragging();
+  // Side by side one looks and walks; a pointer would be in two pictures.
+  if (planning_.compares_pictures() && planning_.compared_view() == ComparedView::side_by_side)
+    return std::nullopt;
   if (!is_dragging && (!is_inside || ImGui::GetIO().WantCaptureMouse)) return std::nullopt;
   return pointer;
+}
+
+/// Of the picture's width, which the panel leaves.
+float Input::share_of_picture(double x) const {
+  int width = 0, height = 0;
+  glfwGetWindowSize(window_, &width, &height);
+  return float(x / std::max(double(width) - double(panel_.width()), 1.0));
 }
 
 bool Input::press_with_control(int key, bool has_shift) {
@@ -158,7 +168,7 @@ bool Input::press_planning(int key, int modifiers) {
       tool.choose(planner::Mode::surface);
       return true;
     case GLFW_KEY_C:
-      planning_.compare_with_next();
+      (modifiers & GLFW_MOD_SHIFT) != 0 ? planning_.next_compared_view() : planning_.compare_with_next();
       return true;
     case GLFW_KEY_M:
       tool.choose_measure();
@@ -257,6 +267,12 @@ void Input::on_button(int button, int action) {
   if (button == GLFW_MOUSE_BUTTON_MIDDLE || (button == GLFW_MOUSE_BUTTON_RIGHT && is_plan))
     is_panning_ = action == GLFW_PRESS && is_plan;
   if (button != GLFW_MOUSE_BUTTON_LEFT) return;
+  if (action == GLFW_RELEASE && std::exchange(is_sliding_, false)) return;
+  constexpr float reach = 0.012f;  // of the line between two designs, a share of the picture
+  is_sliding_ = action == GLFW_PRESS && planning_.compares_pictures() &&
+                planning_.compared_view() == ComparedView::slider &&
+                std::abs(share_of_picture(cursor_.x) - planning_.split()) < reach;
+  if (is_sliding_) return;
   if (planning_.is_on()) {
     const std::optional<planner::Pointer> at = pointer();
     planner::Tool& tool = *planning_.tool();
@@ -299,6 +315,7 @@ void Input::on_cursor(double x, double y) {
   const glm::dvec2 moved = glm::dvec2(x, y) - cursor_;
   cursor_ = {x, y};
   has_moved_ = true;
+  if (is_sliding_) return planning_.set_split(share_of_picture(x));
   int width = 0, height = 1;
   glfwGetWindowSize(window_, &width, &height);
   if (is_panning_ || (is_dragging_ && visit_.mode() == Mode::plan))

@@ -44,13 +44,14 @@ class Input {
   bool press_with_control(int key, bool has_shift);
   std::optional<planner::Pointer> pointer() const;
   bool is_held(int key) const;
+  float share_of_picture(double x) const;
 
   GLFWwindow* window_;
   Visit& visit_;
   Panel& panel_;
   Planning& planning_;
   Controls controls_;
-  bool is_dragging_ = false, is_panning_ = false;
+  bool is_dragging_ = false, is_panning_ = false, is_sliding_ = false;
   bool has_moved_ = false;                    ///< the cursor, since the last poll
   glm::dvec2 cursor_{0.0}, pressed_at_{0.0};  ///< in the window's units
   std::array<unsigned char, 15> controller_buttons_{};

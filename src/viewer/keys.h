@@ -26,6 +26,7 @@ inline constexpr std::array key_help{
     KeyHelp{"K  F3", "what can be placed; the planner's tool"},
     KeyHelp{"4  5  6", "planning: plan, street, balcony"},
     KeyHelp{"V  U  M  C", "planning: select, surface, measure, compare designs"},
+    KeyHelp{"Shift+C", "planning: two designs in colours, with a slider, side by side"},
     KeyHelp{"G  R  Z", "planning: move, turn, resize what is selected"},
     KeyHelp{"Q  E", "planning: turn what hangs on the pointer"},
     KeyHelp{"arrows", "planning: move by 1 cm; Shift 10 cm, Ctrl 1 m"},

@@ -51,7 +51,7 @@ struct Overlay::Pen {
 
 namespace {
 
-constexpr ImU32 chosen = IM_COL32(240, 170, 84, 255), pointed = IM_COL32(255, 255, 255, 210),
+constexpr ImU32 chosen_ink = IM_COL32(240, 170, 84, 255), pointed_ink = IM_COL32(255, 255, 255, 210),
                 refused = IM_COL32(232, 64, 48, 255), guide = IM_COL32(120, 205, 255, 235),
                 shade = IM_COL32(10, 12, 14, 150);
 
@@ -209,6 +209,25 @@ void Overlay::draw_differences(const Planning& planning, const Pen& pen) {
   }
 }
 
+/// The line between the pictures of two designs, with their names.
+void Overlay::draw_split(const Planning& planning, const Pen& pen) {
+  constexpr ImU32 white = IM_COL32(255, 255, 255, 230);
+  const float x = planning.split() * pen.size.x, top = 58.0f * pen.scale;
+  pen.list->AddLine({x, 0.0f}, {x, pen.size.y}, white, 2.0f * pen.scale);
+  const bool is_slider = planning.compared_view() == ComparedView::slider;
+  if (is_slider) {
+    const float r = 9.0f * pen.scale, middle = 0.5f * pen.size.y;
+    pen.list->AddCircleFilled({x, middle}, 1.6f * r, white);
+    for (const float side : {-1.0f, 1.0f})
+      pen.list->AddTriangleFilled({x + side * r, middle}, {x + side * 0.35f * r, middle - 0.5f * r},
+                                  {x + side * 0.35f * r, middle + 0.5f * r}, IM_COL32(40, 42, 46, 255));
+  }
+  const std::string before = planning.compared(), after = planning.open_name();
+  const float gap = 14.0f * pen.scale;
+  pen.label({x - gap - 0.5f * ImGui::CalcTextSize(before.c_str()).x, top}, before);
+  pen.label({x + gap + 0.5f * ImGui::CalcTextSize(after.c_str()).x, top}, after);
+}
+
 /// Those of the open design as the pointer holds them, and those of other designs that are shown.
 void Overlay::draw_measurements(Planning& planning, const Pen& pen) {
   constexpr ImU32 measured = IM_COL32(255, 120, 190, 255);
@@ -221,7 +240,7 @@ void Overlay::draw_measurements(Planning& planning, const Pen& pen) {
     const bool is_lit =
         each.design == session.name() && !each.name.empty() &&
         (each.name == tool.pointed() || std::ranges::count(session.selected(), each.name) > 0);
-    const ImU32 colour = is_lit ? chosen : measured;
+    const ImU32 colour = is_lit ? chosen_ink : measured;
     const std::vector<glm::dvec3> line = each.line();
     const bool is_height = each.quantity == design::Quantity::height;
     for (std::size_t i = 0; i + 1 < line.size(); ++i)
@@ -239,7 +258,7 @@ void Overlay::draw_measurements(Planning& planning, const Pen& pen) {
 
 void Overlay::draw_held(Planning& planning, const Pen& pen) {
   const planner::Tool& tool = *planning.tool();
-  const ImU32 colour = tool.refusal().empty() ? chosen : refused;
+  const ImU32 colour = tool.refusal().empty() ? chosen_ink : refused;
   for (const scene::Object& object : tool.preview().scene().objects)
     if (object.is_visible) draw_outline(pen, object, colour, 2.0f);
   const planner::Snapped& snapped = tool.snapped();
@@ -257,20 +276,23 @@ void Overlay::draw(Planning& planning, ImVec2 size, float scale) {
   ImDrawList* list = ImGui::GetBackgroundDrawList();
   const Pen pen{list, size, scale, camera.clip_from_camera(size.x / size.y) * camera.camera_from_world()};
   list->PushClipRect({0.0f, 0.0f}, size);
+  if (planning.compares_pictures()) draw_split(planning, pen);
+  if (planning.compares_pictures() && planning.compared_view() == ComparedView::side_by_side)
+    return list->PopClipRect();
   const planner::Tool& tool = *planning.tool();
   const bool moves = tool.action() == planner::Action::move || tool.action() == planner::Action::turn ||
                      tool.action() == planner::Action::resize;
   if (!moves)
     for (const std::string& name : planning.session()->selected())
-      draw_named(planning, pen, name, chosen, 2.0f);
+      draw_named(planning, pen, name, chosen_ink, 2.0f);
   if (!tool.pointed().empty() && std::ranges::count(planning.session()->selected(), tool.pointed()) == 0)
-    draw_named(planning, pen, tool.pointed(), pointed, 1.5f);
-  draw_differences(planning, pen);
+    draw_named(planning, pen, tool.pointed(), pointed_ink, 1.5f);
+  if (!planning.compares_pictures()) draw_differences(planning, pen);
   draw_measurements(planning, pen);
   draw_held(planning, pen);
   const std::vector<glm::dvec3> corners = tool.corners();
-  for (std::size_t i = 0; i + 1 < corners.size(); ++i) pen.line(corners[i], corners[i + 1], chosen, 2.0f);
-  if (corners.size() > 2) pen.dashes(corners.back(), corners.front(), chosen);
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) pen.line(corners[i], corners[i + 1], chosen_ink, 2.0f);
+  if (corners.size() > 2) pen.dashes(corners.back(), corners.front(), chosen_ink);
   for (const planner::Dimension& dimension : tool.dimensions()) {
     pen.line(dimension.from, dimension.to, guide, 1.5f);
     if (const auto at = pen.at(0.5 * (dimension.from + dimension.to)))
@@ -282,7 +304,7 @@ void Overlay::draw(Planning& planning, ImVec2 size, float scale) {
         b(float((*box)[1].x) / unit, float((*box)[1].y) / unit);
     const ImVec2 low(std::min(a.x, b.x), std::min(a.y, b.y)), high(std::max(a.x, b.x), std::max(a.y, b.y));
     list->AddRectFilled(low, high, IM_COL32(240, 170, 84, 40));
-    list->AddRect(low, high, chosen, 0.0f, 0, scale);
+    list->AddRect(low, high, chosen_ink, 0.0f, 0, scale);
   }
   if (camera.parallel) draw_scale(*list, camera, size, scale, size.y - 40.0f * scale);
   list->PopClipRect();

@@ -26,6 +26,7 @@ class Overlay {
   void draw_named(Planning& planning, const Pen& pen, const std::string& name, ImU32 colour, float width);
   static void draw_prism(const Pen& pen, const design::PlacedObject& object, ImU32 colour, float width);
   static void draw_differences(const Planning& planning, const Pen& pen);
+  static void draw_split(const Planning& planning, const Pen& pen);
   static void draw_measurements(Planning& planning, const Pen& pen);
   void draw_held(Planning& planning, const Pen& pen);
 

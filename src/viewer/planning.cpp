@@ -132,6 +132,30 @@ void Planning::compare_with_next() {
                             counts[0], counts[1], counts[2], counts[3]));
 }
 
+bool Planning::compares_pictures() const {
+  return is_on_ && desk_ && !compared_.empty() && compared_ != desk_->session.name() &&
+         desk_->session.design() && compared_view_ != ComparedView::colours;
+}
+
+void Planning::next_compared_view() {
+  if (!desk_) return;
+  if (compared_.empty() || compared_ == desk_->session.name()) {
+    compare_with_next();
+    compared_view_ = ComparedView::slider;
+  } else {
+    compared_view_ = ComparedView((std::size_t(compared_view_) + 1) % 3);
+  }
+  if (compared_.empty()) return;
+  constexpr std::array words{"compared in colours", "drag the line between the designs", "side by side"};
+  visit_.notice(word(words[std::size_t(compared_view_)]));
+}
+
+void Planning::draw_compared(int width, int height, GLuint framebuffer) {
+  comparison_.draw(visit_.stage(), visit_.camera(), compared_, desk_->session.name(), compared_view_,
+                   {width, height});
+  comparison_.display(framebuffer, split_);
+}
+
 std::vector<design::Difference> Planning::differences() const {
   if (!desk_ || compared_.empty() || compared_ == desk_->session.name()) return {};
   return design::differences(design::placed_objects(visit_.scene(), visit_.live(), compared_),

@@ -9,6 +9,7 @@
 #include "planning/design/difference.h"
 #include "planning/planner/tool.h"
 #include "planning/planner/words.h"
+#include "viewer/comparison.h"
 #include "viewer/visit.h"
 
 namespace parvis::viewer {
@@ -30,7 +31,9 @@ class Planning {
 
   planner::Tool* tool() { return desk_ ? &desk_->tool : nullptr; }          ///< null: no design is open
   design::Session* session() { return desk_ ? &desk_->session : nullptr; }  ///< null: no design is open
-  Visit& visit() { return visit_; }                                         ///< as given
+  /// The open design's name; empty: none is open.
+  std::string open_name() const { return desk_ ? desk_->session.name() : std::string(); }
+  Visit& visit() { return visit_; }  ///< as given
   /// Names of the scene's designs.
   std::vector<std::string> designs() const;
   /// Opens another design, shows it and hides the others.
@@ -43,6 +46,21 @@ class Planning {
   std::vector<design::Difference> differences() const;
   /// The design that it is compared with; empty: none.
   const std::string& compared() const { return compared_; }
+
+  /// In colours, with a slider, side by side, and so on; with the next design where none is compared.
+  void next_compared_view();
+  /// Are two pictures shown?
+  bool compares_pictures() const;
+  ComparedView compared_view() const { return compared_view_; }  ///< how the two designs are shown
+  /// Where the pictures of the two designs meet, a share of the window's part: the other design lies left of
+  /// it.
+  float split() const { return compared_view_ == ComparedView::slider ? split_ : 0.5f; }
+  /// Moves the place where they meet.
+  void set_split(float share) { split_ = std::clamp(share, 0.0f, 1.0f); }
+  /// Draws and displays both pictures.
+  void draw_compared(int width, int height, GLuint framebuffer);
+  /// Displays the other design's picture, as it was drawn last, over the frame that is displayed.
+  void display_other(GLuint framebuffer) const { comparison_.display(framebuffer, split_, true); }
 
   /// Runs a command of the session; an error becomes a notice.
   bool run(const std::string& command);
@@ -99,6 +117,9 @@ class Planning {
   std::vector<planner::PlanSegment> plan_lines_;
   std::map<int, Camera> kept_views_;
   std::string saved_at_, compared_;
+  ComparedView compared_view_ = ComparedView::colours;
+  float split_ = 0.5f;
+  Comparison comparison_;
   float quiet_s_ = 0.0f;  ///< for how long the pointer has rested
   glm::mat4 eye_{1.0f};   ///< in the last step
 };

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "graphics/reference/metrics.h"
+#include "graphics/render/picture_target.h"
 #include "viewer/test_square.h"
 
 namespace parvis::viewer {
@@ -139,6 +140,80 @@ TEST_F(PlanningTest, AClickOnAWallStandsThere) {
   const glm::vec3 eye = visit_->camera().position_in_world();
   EXPECT_LT(glm::distance(eye, glm::vec3(6, 10.65f, 5)), 0.2f);
   EXPECT_LT(visit_->camera().forward_in_world().y, -0.8f) << "away from the wall";
+}
+
+TEST_F(PlanningTest, TwoDesignsShareTheWindow) {
+  planning_.reset();
+  open(
+      "sun(azimuth_deg=215, elevation_deg=42) exposure(value=1.1) reflection(method=none)\n"
+      "model(name=pavement, file=\"ground.glb\")\n"
+      "camera(name=roof, position=\"12 -16 14\", heading_deg=325, pitch_deg=-28)\n"
+      "design(name=old) { placed(name=k, kind=kiosk, position=\"-2 -4 0\") }\n"
+      "design(name=new, visible=0) { placed(name=u, kind=umbrella, position=\"2 -4 0\") }\n");
+  planning_.emplace(*visit_, planner::Language::english);
+  planning_->turn_on(true);
+  look_from("roof");
+  const auto turn_to = [&](const char* design) {
+    planning_->open_design(design);
+    wait();
+  };
+  turn_to("new");
+  const Image8 after = whole();
+  turn_to("old");
+  const Image8 before = whole();
+  turn_to("new");
+  EXPECT_FALSE(planning_->compares_pictures());
+  planning_->next_compared_view();
+  ASSERT_TRUE(planning_->compares_pictures()) << told();
+  EXPECT_EQ(planning_->compared(), "old");
+
+  const gl::Texture texture = gl::texture_2d(GL_RGBA8, size.x, size.y);
+  const gl::Framebuffer framebuffer = gl::Framebuffer::create();
+  glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+  const auto shown = [&] {
+    for (int i = 0; i < 3; ++i) planning_->draw_compared(size.x, size.y, framebuffer.name());
+    Image8 image(size.x, size.y, 4);
+    glGetTextureImage(texture.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(image.pixels.size()),
+                      image.pixels.data());
+    render::flip_rows(image);
+    return image;
+  };
+  const auto same_columns = [&](const Image8& a, const Image8& b, int from, int to) {
+    int different = 0;
+    for (int y = 0; y < size.y; ++y)
+      for (int x = from; x < to; ++x)
+        for (int channel = 0; channel < 3; ++channel)
+          different += std::abs(int(a.at(x, y)[channel]) - int(b.at(x, y)[channel])) > 1;
+    return different == 0;
+  };
+  for (const float split : {0.25f, 0.6f}) {
+    planning_->set_split(split);
+    const int at = int(std::lround(split * float(size.x)));
+    const Image8 both = shown();
+    EXPECT_TRUE(same_columns(both, before, 0, at)) << "the other design left of " << at;
+    EXPECT_TRUE(same_columns(both, after, at, size.x)) << "the open one right of " << at;
+  }
+  EXPECT_FALSE(same_columns(before, after, 0, size.x)) << "the control";
+  EXPECT_TRUE(sees("u"));
+  EXPECT_FALSE(sees("k")) << "the open design stays the one that is shown";
+  planning_->next_compared_view();
+  EXPECT_EQ(planning_->compared_view(), ComparedView::side_by_side);
+  const Image8 beside = shown();
+  const auto half = [&](const char* design) {
+    turn_to(design);
+    stage_->draw(visit_->camera(), size.x / 2, size.y);
+    return stage_->whole_picture();
+  };
+  const Image8 left = half("old"), right = half("new");
+  int different = 0;
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) {
+      const Image8& one = x < size.x / 2 ? left : right;
+      different += std::abs(int(beside.at(x, y)[1]) - int(one.at(x % (size.x / 2), y)[1])) > 1;
+    }
+  EXPECT_EQ(different, 0);
+  planning_->next_compared_view();
+  EXPECT_FALSE(planning_->compares_pictures()) << "in colours again";
 }
 
 }  // namespace

@@ -164,11 +164,15 @@ class Frames {
     rests_ = options_.max_frames == 0 && stillness_.rests() && !held;
     if (held)
       planning_.draw_held(shown_width, height_);
+    else if (planning_.compares_pictures())
+      planning_.draw_compared(shown_width, height_, 0);
     else if (rests_)
       stage.refine(visit_.camera(), shown_width, height_);
     else
       stage.draw(visit_.camera(), shown_width, height_);
-    stage.display(0);
+    if (held || !planning_.compares_pictures()) stage.display(0);
+    if (held && planning_.compares_pictures() && planning_.compared_view() == ComparedView::slider)
+      planning_.display_other(0);
     stage.pass_times().end_pass("display");
     glViewport(0, 0, width_, height_);
     imgui_.draw();
