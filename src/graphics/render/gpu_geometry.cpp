@@ -81,6 +81,12 @@ void GpuGeometry::deform(const MeshRange& range, const Mesh& mesh) {
   const auto run =
       std::prev(std::ranges::upper_bound(runs_, std::size_t(range.base_vertex), {}, &Run::first_in_buffer));
   Vertex* vertex = deforming_.data() + run->first + (std::size_t(range.base_vertex) - run->first_in_buffer);
+  const auto first = std::size_t(range.base_vertex), at = std::size_t(vertex - deforming_.data());
+  if (!changed_.empty() && changed_.back().first_in_buffer + changed_.back().count == first &&
+      changed_.back().first + changed_.back().count == at)
+    changed_.back().count += mesh.positions.size();
+  else
+    changed_.push_back({first, at, mesh.positions.size()});
   for (std::size_t i = 0; i < mesh.positions.size(); ++i, ++vertex) {
     vertex->position = mesh.positions[i];
     vertex->normal = mesh.normals[i];
@@ -88,9 +94,10 @@ void GpuGeometry::deform(const MeshRange& range, const Mesh& mesh) {
 }
 
 void GpuGeometry::upload_deformed() {
-  for (const Run& run : runs_)
+  for (const Run& run : changed_)
     glNamedBufferSubData(vertex_buffer_.name(), GLintptr(run.first_in_buffer * sizeof(Vertex)),
                          GLsizeiptr(run.count * sizeof(Vertex)), deforming_.data() + run.first);
+  changed_.clear();
 }
 
 }  // namespace parvis::render

@@ -68,7 +68,8 @@ class GpuGeometry {
   std::vector<Detail> details_;         ///< of them, where any mesh has some
   std::vector<std::uint32_t> indices_;  ///< to be uploaded
   std::vector<Vertex> deforming_;
-  std::vector<Run> runs_;  ///< of them, ascending
+  std::vector<Run> runs_;     ///< of them, ascending
+  std::vector<Run> changed_;  ///< since they were uploaded
   std::size_t uploaded_vertices_ = 0, uploaded_details_ = 0, uploaded_indices_ = 0;
   std::size_t vertex_room_ = 0, detail_room_ = 0, index_room_ = 0;  ///< of the buffers
   gl::Buffer vertex_buffer_, detail_buffer_, index_buffer_;

@@ -156,6 +156,11 @@ double Stage::drawn_share() const {
   return double(renderer_->width()) * double(renderer_->height()) / (double(width_) * double(height_));
 }
 
+void Stage::adapt_to(const Camera& camera) {
+  const glm::vec3 eye = camera.position_in_world();
+  play_.clock.adapt(play_.scene, std::span(&eye, 1));
+}
+
 void Stage::draw_held(const Camera& camera, int width, int height, const std::vector<std::uint8_t>& shown,
                       const scene::Scene& held) {
   const glm::ivec2 size(width, height);
@@ -187,6 +192,7 @@ void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn,
       fmt::print(stderr, "{}", to_string(status.errors()));
   width_ = size.x, height_ = size.y;
   drawn_from_ = camera;
+  adapt_to(camera);
   pass_times_.begin_frame();
   render::FrameSteps steps;
   steps.shown_objects = shown;
@@ -236,6 +242,7 @@ Image8 Stage::whole_picture() {
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                       const machines::Processes& processes) {
   end_refinement();  // tracing begins a frame
+  adapt_to(camera);
   reference::TraceOptions options;
   options.samples_per_pixel = samples_per_pixel;
   options.processes = &processes;
@@ -245,6 +252,7 @@ reference::TracedPicture Stage::trace(const Camera& camera, int width, int heigh
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                       const reference::PixelWindow& window) {
   end_refinement();
+  adapt_to(camera);
   reference::TraceOptions options;
   options.samples_per_pixel = samples_per_pixel;
   options.window = window;

@@ -142,6 +142,7 @@ class Stage {
 
  private:
   void end_refinement();
+  void adapt_to(const Camera& camera);
   bool has_new_mirrors();
   Stage(Play play, std::unique_ptr<render::Renderer> renderer, ShownRadiance refined);
   void draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn,

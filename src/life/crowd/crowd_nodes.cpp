@@ -26,7 +26,8 @@ scene::NodeSchema crowd_schema() {
           .help =
               "People who walk on the scene's ground, over pavements rather than roads, up and down steps, "
               "round what stands "
-              "in their way. Its models are skinned people whose first animation is a cycle of walking on "
+              "in their way. They are generated people, or its models: skinned people whose first animation "
+              "is a cycle of walking on "
               "the spot; they look "
               "along x and stand on z = 0 (turn them with heading_deg). They are called \"person 1\", "
               "\"person 2\", ...: "
@@ -38,10 +39,7 @@ scene::NodeSchema crowd_schema() {
                vec3("centre", "of the part of the place in which they walk").in("m").by_default("0 0 0"),
                number("radius", "of that part").in("m").between(5, 2000).by_default("80"),
                scene::visible_attribute()},
-          .example =
-              "crowd(people=60, seed=3, centre=\"40 -20 0\", radius=90) {\n"
-              "  model(file=\"people/walker.glb\", heading_deg=-90)\n"
-              "}",
+          .example = "crowd(people=60, seed=3, centre=\"40 -20 0\", radius=90)",
           .is_unique = true,
           .is_laid_out_once = true,
           .names_made = person_names};
@@ -64,9 +62,6 @@ void build_crowd(const Node& node, SceneBuilder& builder, const formats::Readers
     else
       builder.fail(person.errors(), kind.where);
   }
-  if (demand.people > 0 && demand.models.empty() && builder.errors().empty())
-    builder.fail(error_at(
-        node.where, "crowd: no model says how its people look; add model(file=...) of a person who walks"));
   builder.scene.data<CrowdDemand>() = std::move(demand);
 }
 

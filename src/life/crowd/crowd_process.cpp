@@ -1,6 +1,7 @@
 #include "life/crowd/crowd_process.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -29,17 +30,67 @@ float normal(Random& random) {
   return sum;
 }
 
+/// The strips beside the lanes of a part of the place.
+class Pavements {
+ public:
+  Pavements(const scene::RoadGraph& roads, glm::vec2 centre, float radius_m) {
+    for (const scene::Lane& lane : roads.lanes)
+      for (std::size_t i = 0; i + 1 < lane.points.size(); ++i) {
+        // Long streets in pieces: a part of each may be within the radius.
+        const glm::vec3 a = lane.points[i], b = lane.points[i + 1];
+        const int pieces = std::clamp(int(glm::distance(a, b) / piece_m), 1, max_pieces);
+        for (int k = 0; k < pieces; ++k) {
+          const Piece piece{glm::mix(a, b, float(k) / float(pieces)),
+                            glm::mix(a, b, float(k + 1) / float(pieces)), lane.width_m};
+          if (glm::distance(0.5f * glm::vec2(piece.a + piece.b), centre) < radius_m &&
+              glm::distance(piece.a, piece.b) > 0.1f)
+            pieces_.push_back(piece);
+        }
+      }
+  }
+
+  bool empty() const { return pieces_.empty(); }
+  /// Some place that may be on a pavement.
+  glm::vec3 place(Random& random) const {
+    const Piece& piece = pieces_[std::size_t(random.index(int(pieces_.size())))];
+    const glm::vec3 along = glm::normalize(piece.b - piece.a), left(-along.y, along.x, 0.0f);
+    const float away =
+        (0.5f * piece.width_m + random.uniform(nearest_m, farthest_m)) * (random.chance(0.5f) ? 1.0f : -1.0f);
+    return glm::mix(piece.a, piece.b, random.uniform()) + away * left;
+  }
+  bool is_on_lane(glm::vec3 p) const {
+    return std::ranges::any_of(pieces_, [&](const Piece& piece) {
+      return glm::distance(nearest_on_segment(glm::vec2(piece.a), glm::vec2(piece.b), glm::vec2(p)),
+                           glm::vec2(p)) < 0.5f * piece.width_m + 0.15f;
+    });
+  }
+
+ private:
+  static constexpr float piece_m = 8.0f, nearest_m = 0.5f, farthest_m = 5.5f;
+  static constexpr int max_pieces = 500;
+  struct Piece {
+    glm::vec3 a, b;
+    float width_m;
+  };
+  std::vector<Piece> pieces_;
+};
+
 float wrapped(float angle) { return std::remainder(angle, 2.0f * std::numbers::pi_v<float>); }
 
 }  // namespace
 
 int CrowdProcess::new_destination(Random& random) { return random.index(int(crowd_->destinations().size())); }
 
-void CrowdProcess::populate(const CrowdDemand& demand) {
+void CrowdProcess::populate(const CrowdDemand& demand, const scene::RoadGraph& roads) {
   Random places(demand.seed);
+  const Pavements pavements(roads, demand.centre, demand.radius_m);
   // Triangles of wide ground reach beyond the part that was asked for.
   const auto somewhere = [&] {
     glm::vec3 place(0.0f);
+    for (int t = 0; t < tries_for_place && !pavements.empty(); ++t)
+      if (const std::optional<glm::vec3> beside = crowd_->mesh().nearest(pavements.place(places), 0.6f);
+          beside && !pavements.is_on_lane(*beside))
+        return *beside;
     for (int t = 0; t < tries_for_place; ++t) {
       place = crowd_->mesh().place(places.uniform(), places.uniform(), places.uniform());
       if (glm::distance(glm::vec2(place), demand.centre) < demand.radius_m) break;
@@ -53,7 +104,8 @@ void CrowdProcess::populate(const CrowdDemand& demand) {
   int missing = 0;
   for (int p = 0; p < demand.people; ++p) {
     Random random(demand.seed, std::uint64_t(p) + 1);
-    const float speed = std::clamp(mean_speed + speed_deviation * normal(random), min_speed, max_speed);
+    float speed = std::clamp(mean_speed + speed_deviation * normal(random), min_speed, max_speed);
+    if (generated_) speed = generated_->speed(std::size_t(p), speed);
     const float radius = shoulders_m + shoulder_range_m * random.uniform(-1.0f, 1.0f);
     std::optional<std::size_t> person;
     for (int t = 0; t < tries_per_person && !person; ++t)
@@ -63,8 +115,10 @@ void CrowdProcess::populate(const CrowdDemand& demand) {
       continue;
     }
     Shown shown;
-    shown.model = &models_[std::size_t(random.index(int(models_.size())))];
-    shown.walked_m = random.uniform(0.0f, shown.model->cycle_m);
+    if (!generated_) {
+      shown.model = &models_[std::size_t(random.index(int(models_.size())))];
+      shown.walked_m = random.uniform(0.0f, shown.model->cycle_m);
+    }
     shown.heading = random.uniform(-3.0f, 3.0f);
     shown_.push_back(shown), randoms_.push_back(random);
   }
@@ -78,7 +132,7 @@ void CrowdProcess::populate(const CrowdDemand& demand) {
 
 void CrowdProcess::begin(scene::Scene& scene, action::SharedByProcesses&) {
   const CrowdDemand& demand = std::as_const(scene).data<CrowdDemand>();
-  if (demand.people <= 0 || demand.models.empty()) return;
+  if (demand.people <= 0) return;
   const WalkingGround ground = ground_of(scene, demand.centre, demand.radius_m);
   Result<NavMesh> mesh = NavMesh::create(ground);
   if (!mesh) {
@@ -88,18 +142,38 @@ void CrowdProcess::begin(scene::Scene& scene, action::SharedByProcesses&) {
   heights_ = GroundHeights(ground);
   models_ = demand.models;
   crowd_.emplace(*std::move(mesh));
-  populate(demand);
+  const bool is_visible = demand.is_visible;
+  if (models_.empty()) generated_.emplace(std::size_t(demand.people), demand.seed);
+  populate(demand, scene.roads);
+  add_objects(scene, is_visible);
+  for (int i = 0; i < warm_up_steps; ++i) walk();
+  present(scene, 0.0);
+}
+
+void CrowdProcess::add_objects(scene::Scene& scene, bool is_visible) {
+  if (generated_) {
+    std::vector<std::string> names;
+    for (std::size_t p = 0; p < generated_->size(); ++p) names.push_back(person_name(p));
+    generated_->add_to(scene, names, is_visible);
+    constexpr std::array<people::Activity, 8> at_rest{
+        people::Activity::stand, people::Activity::phone, people::Activity::stand, people::Activity::wait,
+        people::Activity::stand, people::Activity::phone, people::Activity::stand, people::Activity::stand};
+    for (std::size_t p = 0; p < shown_.size(); ++p) {
+      const glm::vec3 place(crowd_->walkers().position[p], crowd_->walkers().height_m[p]);
+      bodies_.emplace_back(generated_->body(p), people::Lead{place, shown_[p].heading}, float(p) * 1.37f);
+      bodies_.back().activity = at_rest[p % at_rest.size()];
+    }
+    return;
+  }
   for (std::size_t p = 0; p < shown_.size(); ++p) {
     scene::Object object;
     object.name = person_name(p);
     object.model = shown_[p].model->model;
-    object.is_visible = demand.is_visible;
+    object.is_visible = is_visible;
     scene::play(object, {shown_[p].model->animation, 0.0f, 0.0});
     shown_[p].object = scene.objects.size();
     scene.objects.push_back(std::move(object));
   }
-  for (int i = 0; i < warm_up_steps; ++i) walk();
-  present(scene, 0.0);
 }
 
 void CrowdProcess::walk() {
@@ -127,6 +201,9 @@ void CrowdProcess::walk() {
                 most = turn_rate * crowd_step_s;
     it.heading += std::clamp(turn, -most, most);
   }
+  const auto ground = [this](glm::vec3 place) { return heights_.at(place); };
+  for (std::size_t p = 0; p < bodies_.size(); ++p)
+    bodies_[p].step({shown_[p].now, shown_[p].heading}, crowd_step_s, ground);
 }
 
 void CrowdProcess::step(const scene::Scene&) {
@@ -137,6 +214,12 @@ void CrowdProcess::step(const scene::Scene&) {
 void CrowdProcess::present(scene::Scene& scene, double ahead_s) {
   const double since_s = double(steps_ % clock_steps) * action::step_s + ahead_s;
   const float part = std::min(float(since_s) / crowd_step_s, 1.0f);
+  if (generated_) {
+    for (std::size_t p = 0; p < bodies_.size(); ++p)
+      generated_->place(p, bodies_[p].lead_at(part), bodies_[p].posture_at(part));
+    generated_->show(scene);
+    return;
+  }
   for (const Shown& it : shown_) {
     scene::Object& object = scene.objects[it.object];
     const glm::vec3 place = glm::mix(it.before, it.now, part);

@@ -8,6 +8,7 @@
 #include "life/crowd/crowd.h"
 #include "life/crowd/demand.h"
 #include "life/crowd/scene_ground.h"
+#include "life/crowd/shown_people.h"
 #include "scene/action/process.h"
 
 namespace parvis::crowd {
@@ -28,28 +29,36 @@ class CrowdProcess final : public action::Process {
   void begin(scene::Scene& scene, action::SharedByProcesses&) override;
   void step(const scene::Scene& scene) override;
   void present(scene::Scene& scene, double ahead_s) override;
+  void adapt(scene::Scene& scene, std::span<const glm::vec3> eyes) override {
+    if (generated_) generated_->adapt(scene, eyes);
+  }
 
   /// After `begin`; nothing where nobody walks.
   const Crowd* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
+  /// Generated people; nothing where models of the user's walk.
+  const ShownPeople* generated() const { return generated_ ? &*generated_ : nullptr; }
 
  private:
   /// A person as shown.
   struct Shown {
-    std::size_t object = 0;  ///< of the scene
-    const PersonModel* model = nullptr;
+    std::size_t object = 0;                       ///< of the scene
+    const PersonModel* model = nullptr;           ///< null: a generated person
     glm::vec3 before{0.0f}, now{0.0f};            ///< places at the last two steps
     float heading_before = 0.0f, heading = 0.0f;  ///< radians, counter-clockwise from +x
     double walked_before_m = 0.0, walked_m = 0.0;
   };
 
-  void populate(const CrowdDemand& demand);
+  void populate(const CrowdDemand& demand, const scene::RoadGraph& roads);
   void walk();
+  void add_objects(scene::Scene& scene, bool is_visible);
   int new_destination(Random& random);
 
   std::optional<Crowd> crowd_;
   GroundHeights heights_;
   std::vector<PersonModel> models_;
   std::vector<Shown> shown_;
+  std::optional<ShownPeople> generated_;     ///< where no model says how people look
+  std::vector<people::WalkingBody> bodies_;  ///< of generated people, in their order
   std::vector<Random> randoms_;
   long steps_ = 0;
 };

@@ -7,7 +7,7 @@ namespace parvis::crowd {
 namespace {
 
 constexpr float min_cell_m = 2.0f;
-constexpr int max_cells_per_side = 2048;
+constexpr int max_wall_cells_per_side = 2048;
 
 bool segments_cross(glm::vec2 a, glm::vec2 b, glm::vec2 c, glm::vec2 d) {
   const auto side = [](glm::vec2 p, glm::vec2 q, glm::vec2 r) {
@@ -40,7 +40,7 @@ Walls::Walls(std::vector<Wall> walls, float reach_m) : walls_(std::move(walls)) 
     low = glm::min(low, glm::min(wall.a, wall.b)), high = glm::max(high, glm::max(wall.a, wall.b));
   low -= reach_m, high += reach_m;
   const glm::vec2 extent = high - low;
-  cell_m_ = std::max(min_cell_m, std::max(extent.x, extent.y) / float(max_cells_per_side));
+  cell_m_ = std::max(min_cell_m, std::max(extent.x, extent.y) / float(max_wall_cells_per_side));
   corner_ = low;
   size_ = glm::ivec2(glm::ceil(extent / cell_m_)) + 1;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  // cell, wall

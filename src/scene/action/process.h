@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ class Process {
   virtual bool looks() const { return false; }
   /// Puts into the scene what is to be seen `ahead_s`, less than a step, after the last step.
   virtual void present(scene::Scene&, double /*ahead_s*/) {}
+  /// Shows what is presented as these eyes need it, before a frame is drawn from them: levels of detail.
+  /// Nothing moves.
+  virtual void adapt(scene::Scene&, std::span<const glm::vec3> /*eyes*/) {}
   /// Finishes what it has spread over the frames to come, for a picture that stands by itself.
   virtual void settle(scene::Scene&) {}
   /// Does what the message to this node asks for. False where it is for another process, or for the node

@@ -45,6 +45,10 @@ void SceneClock::present(scene::Scene& scene, double ahead_s) {
   warn(shared_->live.refresh(scene));
 }
 
+void SceneClock::adapt(scene::Scene& scene, std::span<const glm::vec3> eyes) {
+  for (Entry& entry : entries_) entry.process->adapt(scene, eyes);
+}
+
 void SceneClock::settle(scene::Scene& scene) {
   for (Entry& entry : entries_) entry.process->settle(scene);
 }

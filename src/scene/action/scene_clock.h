@@ -24,6 +24,8 @@ class SceneClock {
   void advance(scene::Scene& scene, double seconds, const Observer& observer = {});
   /// Shows the present moment once more, after another scenario has been chosen, say.
   void follow(scene::Scene& scene) { present(scene, due_s_); }
+  /// Shows the present moment as these eyes need it: Process::adapt. Before a frame is drawn.
+  void adapt(scene::Scene& scene, std::span<const glm::vec3> eyes);
   /// Finishes what processes have spread over frames to come: for pictures and films, whose frames must not
   /// depend on those drawn before. After `advance` or `follow`.
   void settle(scene::Scene& scene);

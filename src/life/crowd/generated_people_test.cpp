@@ -1,0 +1,137 @@
+// Crowds of generated people: they need no model, keep their feet on the ground, and are shown as fine as the
+// eye is near.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "life/crowd/crowd_process.h"
+
+namespace parvis::crowd {
+namespace {
+
+scene::Object level_ground(float half_m) {
+  auto model = std::make_shared<scene::Model>();
+  model->materials.resize(1);
+  scene::Part part;
+  part.mesh.positions = {
+      {-half_m, -half_m, 0}, {half_m, -half_m, 0}, {half_m, half_m, 0}, {-half_m, half_m, 0}};
+  part.mesh.normals.assign(4, {0, 0, 1}), part.mesh.uvs.resize(4);
+  part.mesh.indices = {0, 1, 2, 0, 2, 3};
+  model->parts.push_back(std::move(part));
+  scene::Object object;
+  object.name = "ground", object.model = std::move(model);
+  return object;
+}
+
+/// A scene of so many people who have walked for a while.
+class GeneratedPeople : public testing::Test {
+ protected:
+  void begin(int people) {
+    scene_.objects.push_back(level_ground(15.0f));
+    CrowdDemand demand;
+    demand.people = people, demand.radius_m = 14.0f, demand.seed = 3;
+    scene_.data<CrowdDemand>() = demand;
+    process_.begin(scene_, shared_);
+  }
+  void advance(int steps) {
+    for (int s = 0; s < steps; ++s) process_.step(scene_);
+    process_.present(scene_, 0.0);
+  }
+  const scene::Object* person(std::size_t number) const {
+    const auto found = std::ranges::find_if(scene_.objects, [&](const scene::Object& object) {
+      return object.is_visible && object.name == person_name(number);
+    });
+    return found == scene_.objects.end() ? nullptr : &*found;
+  }
+  static Bounds bounds_of(const scene::Object& object) {
+    Bounds box;
+    for (const Mesh& mesh : object.deformed_meshes)
+      for (const glm::vec3 p : mesh.positions)
+        box.add(glm::vec3(object.world_from_model * glm::vec4(p, 1.0f)));
+    return box;
+  }
+
+  scene::Scene scene_;
+  action::SharedByProcesses shared_;
+  CrowdProcess process_;
+};
+
+TEST_F(GeneratedPeople, WalkWithoutAModelAndStandOnTheGround) {
+  begin(12);
+  advance(30);
+  std::size_t moved = 0;
+  std::vector<glm::vec3> before;
+  for (std::size_t p = 0; p < 12; ++p) {
+    ASSERT_TRUE(person(p)) << p;
+    before.push_back(glm::vec3(person(p)->world_from_model[3]));
+    const Bounds box = bounds_of(*person(p));
+    EXPECT_NEAR(box.min.z, 0.0f, 0.04f) << p;
+    EXPECT_GT(box.max.z, 0.9f);
+    EXPECT_LT(box.max.z, 2.2f);
+  }
+  advance(120);
+  for (std::size_t p = 0; p < 12; ++p)
+    moved += glm::distance(before[p], glm::vec3(person(p)->world_from_model[3])) > 0.5f ? 1 : 0;
+  EXPECT_GT(moved, 5u);
+}
+
+TEST_F(GeneratedPeople, AreFineWhereTheEyeIsNearAndEachIsShownOnce) {
+  begin(30);
+  advance(10);
+  const glm::vec3 eye = glm::vec3(person(4)->world_from_model[3]) + glm::vec3(1.5f, 0.0f, 1.6f);
+  const std::size_t far_triangles = person(4)->model->triangle_count();
+  process_.adapt(scene_, std::span(&eye, 1));
+  EXPECT_EQ(process_.generated()->level(4), people::Detail::near);
+  EXPECT_GT(person(4)->model->triangle_count(), 4 * far_triangles);
+  const auto shown = [&](std::size_t p) {
+    return std::ranges::count_if(scene_.objects, [&](const scene::Object& object) {
+      return object.is_visible && object.name == person_name(p);
+    });
+  };
+  for (std::size_t p = 0; p < 30; ++p) EXPECT_EQ(shown(p), 1) << p;
+  EXPECT_NEAR(bounds_of(*person(4)).min.z, 0.0f, 0.04f) << "posed at once";
+  const glm::vec3 far_away(900.0f, 0.0f, 1.6f);
+  process_.adapt(scene_, std::span(&far_away, 1));
+  for (std::size_t p = 0; p < 30; ++p) {
+    EXPECT_EQ(process_.generated()->level(p), people::Detail::far);
+    EXPECT_EQ(shown(p), 1) << p;
+  }
+}
+
+TEST_F(GeneratedPeople, OfWhomThereAreManyShareTheirMeshes) {
+  begin(100);
+  std::size_t near = 0;
+  std::set<const scene::Model*> models;
+  for (const scene::Object& object : scene_.objects) {
+    if (object.deformed_meshes.empty()) continue;
+    models.insert(object.model.get());
+    near += object.model->triangle_count() > 12'000 ? 1 : 0;
+  }
+  EXPECT_EQ(models.size(), std::size_t(people::detail_count * ShownPeople::max_shapes));
+  EXPECT_LE(near, std::size_t(ShownPeople::max_looks));
+}
+
+TEST_F(GeneratedPeople, WithoutGroundAreMissedWithAMessage) {
+  CrowdDemand demand;
+  demand.people = 5;
+  scene_.data<CrowdDemand>() = demand;
+  process_.begin(scene_, shared_);
+  EXPECT_TRUE(scene_.objects.empty());
+  EXPECT_FALSE(process_.take_warnings().empty());
+}
+
+TEST_F(GeneratedPeople, StandBesideTheLanes) {
+  scene::Lane lane;
+  lane.points = {{-14, 0, 0}, {14, 0, 0}}, lane.width_m = 6.0f;
+  scene_.roads.lanes.push_back(lane);
+  begin(20);
+  for (const Destination& destination : process_.crowd()->destinations()) {
+    EXPECT_GT(std::abs(destination.a.y), 3.0f);
+    EXPECT_LT(std::abs(destination.a.y), 9.5f);
+  }
+}
+
+}  // namespace
+}  // namespace parvis::crowd

@@ -1,0 +1,71 @@
+// Generated people as objects of a scene, at three levels of detail: who is near an eye is shown in full, who
+// is far by a mesh whose edges are about a pixel long there.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "life/people/person_model.h"
+#include "life/people/walking_body.h"
+#include "scene/data/scene.h"
+
+namespace parvis::crowd {
+
+/// The people of a crowd. Memory is bounded: at most `max_looks` of them differ.
+class ShownPeople {
+ public:
+  static constexpr int max_looks = 40, max_shapes = 14;
+
+  /// Makes the bodies of so many people; the same seed makes the same.
+  ShownPeople(std::size_t people, std::uint64_t seed);
+
+  /// Adds their objects to a scene, all of them far; `names` are those of the people.
+  void add_to(scene::Scene& scene, std::span<const std::string> names, bool is_visible);
+
+  /// The body of a person.
+  const people::BodyField& body(std::size_t person) const;
+  /// Speed at which a person of this body walks who is `relative` times as fast as an adult.
+  float speed(std::size_t person, float adult_m_s) const;
+
+  /// Where a person is now and how.
+  void place(std::size_t person, const people::Lead& lead, const people::Posture& posture);
+  /// Puts the places into the scene, at the levels that were chosen last.
+  void show(scene::Scene& scene) const;
+  /// Chooses levels by the distances to the eyes, and shows who has changed.
+  void adapt(scene::Scene& scene, std::span<const glm::vec3> eyes);
+
+  std::size_t size() const { return people_.size(); }
+  /// The level of detail at which a person is shown.
+  people::Detail level(std::size_t person) const { return people_[person].level; }
+
+ private:
+  /// A body at its levels; people of one shape share its meshes.
+  struct Shape {
+    people::Someone who;
+    people::BodyField body;
+    std::vector<std::shared_ptr<const scene::Model>> models;  ///< by people::Detail
+  };
+  /// A shape in colours, with the objects that show whoever of that look is near.
+  struct Look {
+    int shape = 0;
+    std::shared_ptr<const std::vector<scene::Material>> paint;
+    std::vector<std::size_t> near, middle;  ///< objects of the scene
+  };
+  struct ShownPerson {
+    int look = 0;
+    std::size_t far_object = 0, object = 0;  ///< object: the one that shows the person now
+    people::Detail level = people::Detail::far;
+    people::Lead lead;
+    people::Posture posture;
+    std::string name;
+  };
+
+  void show_person(scene::Scene& scene, std::size_t person) const;
+
+  std::vector<Shape> shapes_;
+  std::vector<Look> looks_;
+  std::vector<ShownPerson> people_;
+  bool is_visible_ = true;
+};
+
+}  // namespace parvis::crowd

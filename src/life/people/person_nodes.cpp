@@ -1,0 +1,73 @@
+// person: somebody who stands, sits or walks on the spot.
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "life/people/person_model.h"
+#include "room_list.h"
+#include "scene/data/object_animation.h"
+#include "scene/script/attribute.h"
+#include "scene/script/node_registry.h"
+#include "scene/script/placement.h"
+#include "scene/script/scene_builder.h"
+
+namespace parvis::people {
+namespace {
+
+using namespace scene::attribute;
+
+using scene::Node, scene::SceneBuilder;
+
+scene::NodeSchema person_schema() {
+  std::vector<scene::AttributeSchema> attributes{
+      text("name", "by which other nodes refer to it"),
+      integer("seed", "another one, another person").between(0, 1e9).by_default("1"),
+      choice("sex", "\"any\": by the seed", {"any", "female", "male"}).by_default("any"),
+      number("age", "in years; without it: by the seed").between(4, 95),
+      choice("does", "what the person does; who walks does so on the spot",
+             {"stand", "walk", "wait", "talk", "phone", "sit"})
+          .by_default("stand"),
+      number("speed", "of who walks").in("m/s").between(0.3, 2.2).by_default("1.3")};
+  for (scene::AttributeSchema& attribute : scene::placement_attributes())
+    attributes.push_back(std::move(attribute));
+  attributes.push_back(scene::visible_attribute());
+  return {
+      .type = "person",
+      .help =
+          "A generated person: body, face, clothes and posture follow from the seed. Feet stand at the "
+          "position, and the person looks along x (turn it with heading_deg); who sits has the seat 0.45 m "
+          "above it.",
+      .attributes = std::move(attributes),
+      .example = "person(seed=4, does=\"wait\", position=\"2 0 0\", heading_deg=90)"};
+}
+
+void build_person(const Node& node, SceneBuilder& builder) {
+  const auto seed = std::uint64_t(node.integer("seed"));
+  const Someone drawn = someone(seed);
+  const std::string sex = node.text("sex");
+  const Sex wanted = sex == "any" ? drawn.person.sex : sex == "female" ? Sex::female : Sex::male;
+  const float age = node.gives("age") ? float(node.number("age")) : drawn.person.age;
+  const Someone who = someone(seed, wanted, age);
+  const auto speed = float(node.number("speed"));
+  const std::string key = fmt::format("person {} {} {} {}", seed, int(wanted), age, speed);
+  scene::Object object;
+  object.name = node.gives("name") ? node.text("name") : "person";
+  object.model = builder.shared_model(
+      key, [&] { return make_person(who, colours_of(who, seed), Detail::near, speed).model; });
+  object.world_from_model = builder.world_from_parent() * scene::placement(node);
+  object.is_visible = builder.is_visible() && node.flag("visible");
+  const std::string does = node.text("does");
+  const std::vector<scene::Animation>& animations = object.model->animations;
+  const auto found = std::ranges::find(animations, does, &scene::Animation::name);
+  const int animation = int(found - animations.begin());
+  scene::play(object, {animation, 1.0f, double(seed % 97) * 0.37});
+  builder.add(std::move(object));
+}
+
+}  // namespace
+
+void furnish(House& house) {
+  house.get<scene::NodeRegistry>().add(
+      person_schema(), [](const Node& node, SceneBuilder& builder) { build_person(node, builder); });
+}
+
+}  // namespace parvis::people
