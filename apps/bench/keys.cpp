@@ -51,6 +51,8 @@ constexpr Key keys[]{
     {"drag_fps", "fps", minimum(10.0), "the same view: a stone bench dragged over the kept picture, all pixels", {{"drag_fps_of_whole_pictures"}}},
     {"drag_picture_flip", "FLIP", maximum(0.02), "the bench's pixels, held against drawn whole", {{"drag_picture_flip_3_cm_beside"}}},
     {"plan_precision_mm", "mm", maximum(1.0), "40 bollards: rays to their sides against what was typed", {{"plan_precision_mm_to_the_centimetre"}}},
+    {"photomontage_check_points_px", "px", maximum(1.0), "courtyard and Sceaux: points shown by the camera of six clicks off by .5 px against by their own; median of the photographs, root mean square over points", {{"photomontage_check_points_px_of_clicks_off_by_5"}}},
+    {"photomontage_check_points_px_worst", "px", {}, "the same, the worst photograph"},
     {"undo_replay_identical", "", minimum(1.0), "10,000 random commands (1,000): undone, redone, replayed from the journal", {{"undo_replay_identical_of_one_step_less"}}},
     {"kill_loses_commands", "commands", maximum(0.0), "200 kills (20) at random moments", {{"kill_loses_commands_without_journal"}}},
     // reflections
