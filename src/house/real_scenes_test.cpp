@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/test_data.h"
-#include "formats/terrain/ground_raster.h"
 #include "house/rooms.h"
 #include "house/stage/stage.h"
+#include "land/heights/ground_raster.h"
 #include "life/traffic/traffic.h"
 #include "scene/script/scene_loader.h"
 

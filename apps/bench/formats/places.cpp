@@ -19,16 +19,16 @@
 #include "bench/parts.h"
 #include "formats/city_models/osm_file.h"
 #include "formats/readers/readers.h"
-#include "formats/terrain/place_heights.h"
 #include "graphics/reference/camera_ray.h"
 #include "graphics/reference/ray_scene.h"
 #include "graphics/shading/tone_curve.h"
+#include "land/heights/place_heights.h"
+#include "land/roads/paving.h"
+#include "land/roads/road_builder.h"
 #include "life/vegetation/scene_plant.h"
 #include "places/dressing/bare_file.h"
 #include "scene/data/surroundings.h"
 #include "scene/data/triangle_kinds.h"
-#include "scene/roads/paving.h"
-#include "scene/roads/road_builder.h"
 
 namespace parvis::bench {
 namespace {

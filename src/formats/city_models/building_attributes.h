@@ -7,7 +7,7 @@
 #include <string>
 
 #include "formats/city_models/osm_file.h"
-#include "formats/terrain/building_kind.h"
+#include "scene/data/building_kind.h"
 
 namespace parvis::scene {
 

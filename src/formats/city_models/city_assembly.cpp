@@ -11,7 +11,7 @@
 #include "formats/city_models/polygon_crossings.h"
 #include "formats/city_models/polygon_triangles.h"
 #include "formats/readers/packed_file.h"
-#include "formats/terrain/city_surfaces.h"
+#include "land/heights/city_surfaces.h"
 #include "scene/data/placeholder.h"
 
 namespace parvis::scene {

@@ -13,7 +13,7 @@
 
 #include "base/files.h"
 #include "base/result.h"
-#include "formats/terrain/building_kind.h"
+#include "scene/data/building_kind.h"
 #include "scene/data/model.h"
 
 namespace parvis::scene {

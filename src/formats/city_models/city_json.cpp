@@ -19,7 +19,7 @@
 #include "formats/city_models/city_lod.h"
 #include "formats/city_models/city_semantics.h"
 #include "formats/readers/packed_file.h"
-#include "formats/terrain/city_surfaces.h"
+#include "land/heights/city_surfaces.h"
 
 namespace parvis::scene {
 namespace {

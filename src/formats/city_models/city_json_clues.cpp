@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "formats/terrain/city_surfaces.h"
+#include "land/heights/city_surfaces.h"
 
 namespace parvis::scene {
 namespace {

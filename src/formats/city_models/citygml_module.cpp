@@ -31,8 +31,8 @@
 #include "formats/city_models/georeferenced_textures.h"
 #include "formats/city_models/gml_geometry.h"
 #include "formats/city_models/xml_guard.h"
-#include "formats/terrain/city_surfaces.h"
 #include "formats/terrain/map_system.h"
+#include "land/heights/city_surfaces.h"
 
 namespace parvis::scene {
 namespace {

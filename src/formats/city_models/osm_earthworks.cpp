@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "formats/terrain/ground_heights.h"
-#include "scene/roads/earthworks.h"
-#include "scene/roads/road_beds.h"
-#include "scene/roads/road_builder.h"
+#include "land/heights/ground_heights.h"
+#include "land/roads/earthworks.h"
+#include "land/roads/road_beds.h"
+#include "land/roads/road_builder.h"
 
 namespace parvis::scene {
 namespace {

@@ -9,7 +9,7 @@
 
 namespace parvis::scene {
 
-/// The ground as it is once streets are paved (scene/roads/earthworks.h), with the turns through their
+/// The ground as it is once streets are paved (land/roads/earthworks.h), with the turns through their
 /// crossings. `roads` lie about `origin`, at heights on the map; where they are higher than `ground` they are
 /// bridges and ramps, and the ground is only cut. Empty where `ground` is.
 GroundOnMap ground_shaped_for(const std::vector<Road>& roads, const GroundOnMap& ground,

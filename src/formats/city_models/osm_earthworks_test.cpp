@@ -7,10 +7,10 @@
 
 #include "formats/city_models/test_osm.h"
 #include "formats/terrain/map_projection.h"
+#include "land/roads/road_beds.h"
+#include "land/roads/road_builder.h"
+#include "land/roads/shaped_terrain.h"
 #include "scene/data/test_scene.h"
-#include "scene/roads/road_beds.h"
-#include "scene/roads/road_builder.h"
-#include "scene/roads/shaped_terrain.h"
 
 namespace parvis::scene {
 namespace {

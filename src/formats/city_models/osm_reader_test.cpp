@@ -18,9 +18,9 @@
 #include "formats/city_models/test_osm.h"
 #include "formats/readers/test_packing.h"
 #include "formats/terrain/map_projection.h"
+#include "land/roads/road_builder.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/test_scene.h"
-#include "scene/roads/road_builder.h"
 
 namespace parvis::scene {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "formats/city_models/osm_measures.h"
-#include "scene/roads/road_builder.h"
+#include "land/roads/road_builder.h"
 
 namespace parvis::scene {
 namespace {

@@ -9,7 +9,7 @@
 #include "formats/readers/local_origin.h"
 #include "formats/readers/packed_file.h"
 #include "formats/readers/readers.h"
-#include "formats/terrain/terrain_heights.h"
+#include "land/heights/terrain_heights.h"
 #include "scene/data/object_animation.h"
 #include "scene/data/object_names.h"
 #include "scene/script/attribute.h"

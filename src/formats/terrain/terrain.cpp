@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/terrain/city_surfaces.h"
 #include "formats/terrain/height_grid.h"
+#include "land/heights/city_surfaces.h"
 
 namespace parvis::scene {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "base/test_folder.h"
 #include "formats/terrain/map_projection.h"
-#include "formats/terrain/terrain_heights.h"
+#include "land/heights/terrain_heights.h"
 
 namespace parvis::scene {
 namespace {

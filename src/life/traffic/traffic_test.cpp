@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "land/roads/road_builder.h"
 #include "life/traffic/street_ends.h"
 #include "life/traffic/traffic_process.h"
 #include "scene/action/scene_clock.h"
 #include "scene/data/path.h"
-#include "scene/roads/road_builder.h"
 
 namespace parvis::traffic {
 namespace {

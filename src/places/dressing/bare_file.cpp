@@ -8,10 +8,10 @@
 
 #include "base/bounds.h"
 #include "base/files.h"
-#include "formats/terrain/city_surfaces.h"
+#include "land/heights/city_surfaces.h"
+#include "land/roads/road_from_polygons.h"
 #include "places/dressing/clock_of_place.h"
 #include "places/dressing/street_view.h"
-#include "scene/roads/road_from_polygons.h"
 
 namespace parvis::dressing {
 namespace {

@@ -12,7 +12,7 @@ namespace parvis::dressing {
 /// model's z is up) of the parts that match the pattern `target`. The polygons of the file and the heights of
 /// eaves distinguish the houses of a row; each has its bricks, storey height, rhythm of windows and street
 /// level, by `seed`. Where the names of parts have words for the kind of building
-/// (formats/terrain/building_kind.h: "WallSurface office 1919-1945 4-storeys"), finish, windows and measures
+/// (scene/data/building_kind.h: "WallSurface office 1919-1945 4-storeys"), finish, windows and measures
 /// are those of its time and use: bands of windows, shop fronts, gates without windows, tall windows of
 /// churches; the storeys are as many as named. Whole storeys end at the eaves; gables, party walls, walls of
 /// less than 1.6 m and walls that have windows of the model are bricks alone; low ones are sheds. Walls that

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/random.h"
-#include "formats/terrain/building_kind.h"
 #include "places/paper_city/surface_canvas.h"
+#include "scene/data/building_kind.h"
 
 namespace parvis::dressing {
 

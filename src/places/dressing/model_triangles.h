@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/terrain/building_kind.h"
+#include "scene/data/building_kind.h"
 #include "scene/data/model.h"
 
 namespace parvis::dressing {

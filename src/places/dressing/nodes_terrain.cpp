@@ -2,10 +2,10 @@
 #include "places/dressing/nodes_terrain.h"
 
 #include "base/content_hash.h"
+#include "land/roads/road_data.h"
 #include "places/dressing/ground_cover.h"
 #include "places/dressing/terrain_plane.h"
 #include "scene/data/surroundings.h"
-#include "scene/roads/road_data.h"
 #include "scene/script/scene_builder.h"
 
 namespace parvis::dressing {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "base/bounds.h"
+#include "land/roads/road_from_polygons.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/path.h"
-#include "scene/roads/road_from_polygons.h"
 
 namespace parvis::dressing {
 namespace {

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
-#include "formats/terrain/place_heights.h"
+#include "land/heights/place_heights.h"
 
 namespace parvis::dressing {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "formats/terrain/place_heights.h"
+#include "land/heights/place_heights.h"
 #include "scene/data/model.h"
 
 namespace parvis::dressing {

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "formats/terrain/ground_raster.h"
+#include "land/heights/ground_raster.h"
 
 namespace parvis::kerbside {
 

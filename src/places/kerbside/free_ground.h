@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "base/bounds.h"
-#include "formats/terrain/ground_heights.h"
-#include "formats/terrain/ground_raster.h"
+#include "land/heights/ground_heights.h"
+#include "land/heights/ground_raster.h"
 #include "scene/data/scene.h"
 
 namespace parvis::kerbside {

@@ -5,8 +5,8 @@
 
 #include "base/colour.h"
 #include "capture/trees/scene_tree.h"
-#include "formats/terrain/city_surfaces.h"
-#include "formats/terrain/place_heights.h"
+#include "land/heights/city_surfaces.h"
+#include "land/heights/place_heights.h"
 #include "life/vegetation/scene_plant.h"
 #include "planning/plan_drawing/placed_blocks.h"
 #include "planning/plan_drawing/plan_lines.h"
