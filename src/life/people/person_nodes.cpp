@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/house.h"
 #include "life/people/person_model.h"
 #include "room_list.h"
 #include "scene/data/object_animation.h"
