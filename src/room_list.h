@@ -19,6 +19,7 @@ class House;
   ROOM(dressing) /* before roads: carriageways are laid on the ground that is made here */ \
   ROOM(roads)                                                                              \
   ROOM(traffic)                                                                            \
+  ROOM(tram)                                                                               \
   ROOM(people)                                                                             \
   ROOM(crowd)                                                                              \
   ROOM(light)                                                                              \
