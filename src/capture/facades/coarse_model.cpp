@@ -18,6 +18,7 @@ constexpr double plane_tolerance = 0.0075;
 constexpr double max_gap = 0.15;          // between points of one wall
 constexpr double max_corner_gap = 0.25;   // between a wall's last point and the wall that it ends at
 constexpr double max_seat_gap = 0.1;      // between a wall's top and the roof above it
+constexpr double max_foot_gap = 0.05;     // between the ground and the lower edge of a slope
 constexpr double extent_quantile = 0.01;  // of points that do not count for extents
 constexpr std::size_t min_points_of_piece = 25;
 constexpr double max_looked_through = 0.4;  // share of the rays that reach a surface and do not end there
@@ -299,6 +300,23 @@ void seat_roofs(std::vector<Piece>& roofs, std::vector<Piece>& walls, const Phot
     }
 }
 
+/// Stairs, ramps and banks rise from the ground; the eaves of roofs are higher.
+bool rises_from_ground(const Piece& piece, const FoundPlane& ground, const Photographed& place) {
+  const double foot = ground_height(piece, 0.5 * (piece.along.low + piece.along.high), ground);
+  return (piece.across.low - foot) * glm::dot(piece.v, place.up) < max_foot_gap * place.scale;
+}
+
+/// A slope ends where it meets a wall that looks down on it: what lies in its plane above is part of what
+/// stands there.
+void end_at_walls(std::vector<Piece>& slopes, const std::vector<Piece>& walls) {
+  for (Piece& slope : slopes)
+    for (const Piece& wall : walls) {
+      const std::optional<double> t = crossing(slope, wall);
+      if (t && *t > slope.across.low && *t < slope.across.high && glm::dot(wall.plane->normal, slope.v) < 0.0)
+        slope.across.high = *t;
+    }
+}
+
 /// Takes out surfaces that photographs look through, and slivers: scattered points that happen to lie in a
 /// plane.
 void leave_out_what_is_no_surface(std::vector<Piece>& pieces, const Photographed& place, Errors& notes) {
@@ -396,11 +414,13 @@ void name_surfaces(std::vector<CoarseSurface>& surfaces) {
   std::ranges::sort(surfaces, [](const CoarseSurface& a, const CoarseSurface& b) {
     return std::pair(a.kind, b.points) < std::pair(b.kind, a.points);
   });
-  int walls = 0, roofs = 0;
-  for (CoarseSurface& surface : surfaces)
-    surface.name = surface.kind == SurfaceKind::ground ? "ground"
-                   : surface.kind == SurfaceKind::wall ? fmt::format("wall_{}", ++walls)
-                                                       : fmt::format("roof_{}", ++roofs);
+  constexpr const char* names[] = {"ground", "wall", "roof", "slope"};
+  int counts[std::size(names)] = {};
+  for (CoarseSurface& surface : surfaces) {
+    const std::size_t kind = std::size_t(surface.kind);
+    surface.name =
+        surface.kind == SurfaceKind::ground ? names[kind] : fmt::format("{}_{}", names[kind], ++counts[kind]);
+  }
 }
 
 }  // namespace
@@ -436,13 +456,19 @@ Result<CoarseModel> propose_coarse_model(const PhotographSet& set) {
         "X Y Z X Y Z ... gives another"));
     ground = &assumed;
   }
+  std::vector<Piece> slopes;
+  for (const Piece& piece : roofs)
+    if (rises_from_ground(piece, *ground, place)) slopes.push_back(piece);
+  std::erase_if(roofs, [&](const Piece& piece) { return rises_from_ground(piece, *ground, place); });
   join_corners(walls, place);
   stand_on_ground(walls, *ground, place);
   seat_roofs(roofs, walls, place);
-  for (std::vector<Piece>* pieces : {&walls, &roofs})
+  end_at_walls(slopes, walls);
+  for (std::vector<Piece>* pieces : {&walls, &roofs, &slopes})
     leave_out_what_is_no_surface(*pieces, place, model.notes);
   for (const Piece& wall : walls) model.surfaces.push_back(surface_of(wall, SurfaceKind::wall));
   for (const Piece& roof : roofs) model.surfaces.push_back(surface_of(roof, SurfaceKind::roof));
+  for (const Piece& slope : slopes) model.surfaces.push_back(surface_of(slope, SurfaceKind::slope));
   model.surfaces.push_back(ground_surface(*ground, walls, place));
   if (model.surfaces.size() == 1)
     return error("no plane was found in {} points; give planes by hints", points.size());

@@ -16,7 +16,7 @@ namespace parvis::facades {
 
 /// A convex planar polygon.
 struct CoarseSurface {
-  std::string name;  ///< "ground", "wall_1", "roof_2", ...: by falling number of points
+  std::string name;  ///< "ground", "wall_1", "roof_2", "slope_1", ...: by falling number of points
   SurfaceKind kind = SurfaceKind::wall;
   std::vector<glm::dvec3> corners;  ///< in world, counter-clockwise seen from the cameras
   std::size_t points = 0;           ///< that support it; 0 for one that a hint gives
@@ -29,7 +29,8 @@ struct CoarseModel {
 };
 
 /// Proposes a model: planes (plane_search.h), their extents by gaps between points, walls down to the ground
-/// and joined at their corners, roofs down to the walls that carry them. A wall that photographs look through
+/// and joined at their corners, roofs down to the walls that carry them,
+/// slopes (stairs, ramps) from the ground up to the wall that ends them. A wall that photographs look through
 /// is left out with a note. Errors: no points (run parvis facade calibrate), or no plane in them.
 Result<CoarseModel> propose_coarse_model(const photographs::PhotographSet& set);
 

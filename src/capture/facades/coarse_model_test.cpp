@@ -172,6 +172,26 @@ TEST(CoarseModel, ASurfaceThatIsLookedThroughFromBehindIsFalse) {
   EXPECT_EQ(walls, 1);
 }
 
+TEST(CoarseModel, StairsBeforeAPortalAreNoRoof) {
+  PhotographSet set = photographs_from({{-4, -6, 1.6f}, {-1, -7, 1.7f}, {2, -7, 1.6f}, {5, -6, 1.7f}});
+  const auto seen = {0, 1, 2, 3};
+  const double rise = std::tan(0.436);  // 25 degrees
+  add_patch(set, 700, {-10, -8, 0}, {20, 0, 0}, {0, 10, 0}, seen);
+  add_patch(set, 600, {-5, 2, 0}, {10, 0, 0}, {0, 4, 4.0 * rise}, seen);
+  add_patch(set, 1200, {-10, 6, 0}, {20, 0, 0}, {0, 0, 9}, seen);
+  // Of the portal behind, what happens to lie in the stairs' plane.
+  add_patch(set, 60, {-2, 6.5, 4.5 * rise}, {4, 0, 0}, {0, 2, 2.0 * rise}, seen);
+  const auto model = propose_coarse_model(set);
+  ASSERT_TRUE(model) << to_string(model.errors());
+  EXPECT_FALSE(find(*model, "roof_1"));
+  const CoarseSurface* stairs = find(*model, "slope_1");
+  ASSERT_TRUE(stairs);
+  EXPECT_EQ(stairs->kind, SurfaceKind::slope);
+  for (const glm::dvec3& corner : stairs->corners) EXPECT_LT(corner.y, 6.1) << "it ends at the wall";
+  EXPECT_NEAR(stairs->corners[0].z, 0.0, 0.3);
+  EXPECT_NEAR(stairs->corners[2].z, 4.0 * rise, 0.2);
+}
+
 TEST(CoarseModel, AWallIsContinuedOnlyWhereNothingIsSeenThroughIt) {
   PhotographSet set = photographs_from({{-6, -8, 1.6f}, {-2, -9, 1.6f}, {2, -8, 1.6f}, {6, -9, 1.6f}});
   add_patch(set, 1500, {-10, 8, 3}, {20, 0, 0}, {0, 0, 9}, {0, 1, 2, 3});  // it stands on posts

@@ -29,10 +29,12 @@ constexpr double min_grown_share =
     0.5;  ///< of certain points in a line of the grid that the surface grows over
 constexpr double range_quantile = 0.01;  ///< of points that do not count for the range
 
-/// The rectangle of a surface; nothing where it is no rectangle.
+/// The rectangle of a wall or a roof; nothing where it is no rectangle.
 std::optional<SweptRectangle> rectangle_of(const CoarseSurface& surface) {
   const std::vector<glm::dvec3>& c = surface.corners;
-  if (surface.kind == SurfaceKind::ground || c.size() != 4) return std::nullopt;
+  // The relief of stairs would be that of what rises behind them.
+  if (surface.kind == SurfaceKind::ground || surface.kind == SurfaceKind::slope || c.size() != 4)
+    return std::nullopt;
   SweptRectangle rectangle;
   rectangle.origin = c[0], rectangle.u = c[1] - c[0], rectangle.v = c[3] - c[0];
   const double size = glm::length(c[2] - c[0]);
