@@ -1,4 +1,4 @@
-// When a tram is where: one run over a line, worked out before anything moves, so that any second can be
+// When a tram is where: one run over a line, computed before anything moves, so that any second can be
 // shown without the seconds before it.
 //
 // Speed: constant acceleration and braking between stops, at most the line's speed, at most what the lateral

@@ -206,11 +206,11 @@ scene::Path smooth_line(const scene::Path& corners, float radius_m) {
 }
 
 Result<scene::MeasuredPath> driveable(scene::Path line) {
-  constexpr float max_m = 20'000.0f, least_m = length_m + 20.0f;
+  constexpr float max_m = 20'000.0f, min_length_m = length_m + 20.0f;
   scene::MeasuredPath path(std::move(line));
-  if (path.points().size() < 2 || path.length() < least_m)
+  if (path.points().size() < 2 || path.length() < min_length_m)
     return error("the track is {:.1f} m long; a tram of {:.0f} m needs {:.0f} m or more", path.length(),
-                 length_m, least_m);
+                 length_m, min_length_m);
   if (path.length() > max_m)
     return error(
         "the track is {:.1f} km long, at most {:.0f} km are run: shorten it to the part that is seen",
