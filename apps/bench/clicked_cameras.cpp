@@ -1,6 +1,8 @@
 // What six clicked points make of the cameras of real photographs.
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <utility>
 
 #include "base/test_data.h"
 #include "bench/parts.h"
@@ -54,7 +56,10 @@ std::vector<double> errors_px(const Place& place, double sigma_px) {
 
 void measure_clicked_cameras(const BenchSetup&, Report& report) {
   double middle = 0.0, worst = 0.0, coarse = 0.0;
-  for (const auto& [name, read] : {std::pair{"photos_castle_p30", courtyard}, {"photos_sceaux", sceaux}}) {
+  using Read = Place (*)(const fs::path&);
+  constexpr std::array<std::pair<const char*, Read>, 2> places{
+      {{"photos_castle_p30", courtyard}, {"photos_sceaux", sceaux}}};
+  for (const auto& [name, read] : places) {
     const auto folder = shared_data(name, fs::current_path());
     if (!folder) return report.skip("photomontage_check_points_px", fmt::format("{} is absent", name));
     const Place place = read(*folder);
