@@ -34,7 +34,7 @@ struct Moment {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0;
 };
 
-/// --date and --hour, else what the camera wrote; nothing where neither says it.
+/// The moment of --date and --hour, else what the camera wrote; nothing where neither says it.
 Result<std::optional<Moment>> moment_of(const MontageArguments& arguments, const std::string& taken) {
   Moment moment;
   int read = 0;
@@ -115,7 +115,7 @@ Result<photographs::Photograph> clicked_camera(const MontageArguments& arguments
   return found->photograph;
 }
 
-/// By --cameras, --points or --camera, with the size of the picture.
+/// The photograph's camera by --cameras, --points or --camera, with the size of the picture.
 Result<photographs::Photograph> photograph_camera(const MontageArguments& arguments,
                                                   const photographs::PictureHeader& header,
                                                   const house::Play& play) {

@@ -70,7 +70,7 @@ VectorXd smallest_direction(const MatrixXd& rows) {
   return svd.matrixV().col(svd.matrixV().cols() - 1);
 }
 
-/// By the direct linear transformation; square pixels, the principal point in the centre.
+/// Adds the estimate of the direct linear transformation: square pixels, the principal point in the centre.
 void add_linear_estimate(const Problem& problem, std::vector<Estimate>& estimates) {
   MatrixXd rows(2 * problem.places.size(), 12);
   for (std::size_t i = 0; i < problem.places.size(); ++i) {
@@ -97,8 +97,8 @@ void add_linear_estimate(const Problem& problem, std::vector<Estimate>& estimate
   estimates.push_back({nearest_rotation(turned), -left.inverse() * last, 0.5 * (fx + fy) * problem.width});
 }
 
-/// By the homography of the plane that fits the points best, for some focal lengths: of points on the ground
-/// alone the linear one finds nothing.
+/// Adds estimates by the homography of the plane that fits the points best, for some focal lengths: of points
+/// on the ground alone the linear one finds nothing.
 void add_plane_estimates(const Problem& problem, std::vector<Estimate>& estimates) {
   MatrixXd spread(problem.places.size(), 3);
   for (std::size_t i = 0; i < problem.places.size(); ++i) spread.row(Eigen::Index(i)) = problem.places[i];
@@ -128,9 +128,9 @@ void add_plane_estimates(const Problem& problem, std::vector<Estimate>& estimate
   }
 }
 
-/// What is minimised: distances from clicks and from what is probable, in standard deviations. Variables: a
-/// rotation vector after the estimate's rotation, the position, the logarithm of the focal length over the
-/// estimate's, the principal point, the distortion.
+/// The function that is minimised: distances from clicks and from what is probable, in standard deviations.
+/// Variables: a rotation vector after the estimate's rotation, the position, the logarithm of the focal
+/// length over the estimate's, the principal point, the distortion.
 struct Residuals {
   static constexpr int variables = 10;
   // As Eigen's search asks for them.
