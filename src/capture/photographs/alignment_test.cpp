@@ -119,6 +119,14 @@ TEST(Neighbours, TheCameraThatIsWrongIsNamed) {
   const Errors wrong = cameras_that_do_not_fit(set);
   ASSERT_EQ(wrong.size(), 1u) << to_string(wrong);
   EXPECT_NE(wrong[0].message.find("place_3.png: its camera does not fit"), std::string::npos);
+  const Errors left_out = leave_out_what_does_not_fit(set);
+  ASSERT_EQ(left_out.size(), 1u) << to_string(left_out);
+  EXPECT_NE(left_out[0].message.find("it is left out"), std::string::npos);
+  ASSERT_EQ(set.photographs.size(), 6u);
+  EXPECT_EQ(find(set, "place_3.png"), nullptr);
+  EXPECT_EQ(set.photographs[3].name, "place_4.png");
+  EXPECT_TRUE(cameras_that_do_not_fit(set).empty()) << "points name the photographs that are left";
+  EXPECT_TRUE(leave_out_what_does_not_fit(set).empty());
 }
 
 TEST(Neighbours, APhotographOfAnotherPlaceHasNone) {

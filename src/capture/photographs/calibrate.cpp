@@ -377,7 +377,9 @@ Result<LoadedSet> calibrate(const CalibrationJob& job) {
   tell_orientations(pictures, loaded->set);
   check_result(job, *loaded);
   if (Status status = turn_and_scale(job, loaded->set); !status) return status.errors();
-  const Errors misfits = cameras_that_do_not_fit(loaded->set);
+  // Given cameras are the user's own.
+  const Errors misfits =
+      job.cameras.empty() ? leave_out_what_does_not_fit(loaded->set) : cameras_that_do_not_fit(loaded->set);
   loaded->problems.insert(loaded->problems.end(), misfits.begin(), misfits.end());
   const Result<MasksAndGains> given = masks_and_gains(job.folder);
   if (!given) return given.errors();

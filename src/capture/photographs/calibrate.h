@@ -30,8 +30,9 @@ struct CalibrationJob {
 /// Runs the job and writes the set. What an earlier run finished is taken over as long as pictures and
 /// options are the same; masks and gains of photographs.json are always kept, also those of photographs that
 /// have no camera now. The problems name: pictures that cannot be read, photographs without a camera in the
-/// end and why, cameras that do not fit their neighbours. Errors: COLMAP missing or failed, fewer than two
-/// photographs of one place, a photographs.json that cannot be read (it stays as it is).
+/// end and why, cameras that do not fit their neighbours: found ones are left out, given ones stay. Errors:
+/// COLMAP missing or failed, fewer than two photographs of one place, a photographs.json that cannot be read
+/// (it stays as it is).
 Result<LoadedSet> calibrate(const CalibrationJob& job);
 
 /// A table for people: each photograph's neighbours, points and reprojection error.

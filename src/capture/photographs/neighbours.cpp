@@ -47,7 +47,15 @@ std::vector<Fit> fits(const PhotographSet& set) {
   return result;
 }
 
-Errors cameras_that_do_not_fit(const PhotographSet& set) {
+namespace {
+
+/// A photograph of a set, and why its camera does not fit.
+struct Misfit {
+  std::size_t photograph = 0;
+  Error why;
+};
+
+std::vector<Misfit> misfits_of(const PhotographSet& set) {
   const std::vector<Fit> all = fits(set);
   std::vector<double> errors;
   std::vector<int> points;
@@ -57,24 +65,55 @@ Errors cameras_that_do_not_fit(const PhotographSet& set) {
   }
   const double max_error = std::max(always_fine_px, times_the_median * median(errors));
   const double min_points = share_of_the_median_points * median(points);
-  Errors messages;
+  std::vector<Misfit> misfits;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string& name = set.photographs[i].name;
     if (all[i].neighbours == 0)
-      messages.push_back(
-          error("{}: has no neighbours: no other photograph sees {} or more of its points; it shows another "
-                "place, or its camera is wrong",
-                name, min_shared_points));
+      misfits.push_back(
+          {i,
+           error("{}: has no neighbours: no other photograph sees {} or more of its points; it shows another "
+                 "place, or its camera is wrong",
+                 name, min_shared_points)});
     else if (all[i].points < min_points)
-      messages.push_back(
-          error("{}: its camera does not fit its neighbours: {} points agree, of the others' {} (median)",
-                name, all[i].points, median(points)));
+      misfits.push_back(
+          {i, error("{}: its camera does not fit its neighbours: {} points agree, of the others' {} (median)",
+                    name, all[i].points, median(points))});
     else if (all[i].reprojection_error_px > max_error)
-      messages.push_back(
-          error("{}: its camera does not fit its neighbours: points lie {:.1f} pixels off, those of the "
-                "others {:.2f} (median)",
-                name, all[i].reprojection_error_px, median(errors)));
+      misfits.push_back(
+          {i, error("{}: its camera does not fit its neighbours: points lie {:.1f} pixels off, those of the "
+                    "others {:.2f} (median)",
+                    name, all[i].reprojection_error_px, median(errors))});
   }
+  return misfits;
+}
+
+}  // namespace
+
+Errors cameras_that_do_not_fit(const PhotographSet& set) {
+  Errors messages;
+  for (const Misfit& misfit : misfits_of(set)) messages.push_back(misfit.why);
+  return messages;
+}
+
+Errors leave_out_what_does_not_fit(PhotographSet& set) {
+  const std::vector<Misfit> misfits = misfits_of(set);
+  if (misfits.empty() || set.photographs.size() < misfits.size() + 2) return cameras_that_do_not_fit(set);
+  std::vector<int> new_index(set.photographs.size(), 0);
+  Errors messages;
+  for (const Misfit& misfit : misfits) {
+    new_index[misfit.photograph] = -1;
+    messages.push_back(misfit.why);
+    messages.back().message += "; it is left out";
+  }
+  std::vector<Photograph> kept;
+  for (std::size_t i = 0; i < new_index.size(); ++i)
+    if (new_index[i] == 0) new_index[i] = int(kept.size()), kept.push_back(set.photographs[i]);
+  set.photographs = std::move(kept);
+  for (SparsePoint& point : set.points) {
+    for (Observation& o : point.observations) o.photograph = new_index[std::size_t(o.photograph)];
+    std::erase_if(point.observations, [](const Observation& o) { return o.photograph < 0; });
+  }
+  std::erase_if(set.points, [](const SparsePoint& point) { return point.observations.size() < 2; });
   return messages;
 }
 

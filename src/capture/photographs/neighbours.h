@@ -24,4 +24,8 @@ std::vector<Fit> fits(const PhotographSet& set);
 /// its neighbours have, or an error far above theirs (3 times the median and above 1.5 pixels).
 Errors cameras_that_do_not_fit(const PhotographSet& set);
 
+/// Takes these photographs out, with points that fewer than two others see, and returns the messages. Nothing
+/// is taken out where fewer than two photographs would stay.
+Errors leave_out_what_does_not_fit(PhotographSet& set);
+
 }  // namespace parvis::photographs
