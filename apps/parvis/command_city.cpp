@@ -15,7 +15,7 @@ struct CityArguments {
 Status write_city(const CityArguments& arguments) {
   const auto write = arguments.name == "kitchen" ? kitchen::write_kitchen : city::write_paper_city;
   if (Status status = write(arguments.folder, arguments.seed); !status) return status;
-  fmt::print("{} is written; see it with: parvis view {}\n", arguments.name,
+  fmt::print("{} is written; see it with: parvis view \"{}\"\n", arguments.name,
              (arguments.folder / (arguments.name + ".xp")).string());
   return Done{};
 }

@@ -20,7 +20,7 @@ Status format_one(const std::filesystem::path& script, bool only_checks) {
   const std::string formatted = scene::format_script(*tree);
   if (formatted == *text) return Done{};
   if (only_checks)
-    return error_at({script.string()}, "is not formatted; run parvis format {}", script.string());
+    return error_at({script.string()}, "is not formatted; run parvis format \"{}\"", script.string());
   // The user may name a link: it is the script that it points to.
   return write_file(std::filesystem::weakly_canonical(script), formatted);
 }

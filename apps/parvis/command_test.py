@@ -1333,6 +1333,22 @@ class Facades(InAFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((place / "figures" / "figure_3_14.png").exists())
         self.assertEqual(run("facade", "figures", place, "--model", self.folder / "wall.gltf", "--photograph", "no").returncode, 1)
+        self.reported_without(place)
+
+    def reported_without(self, place):
+        """How well the place shows photographs that it is made without."""
+        command = ["facade", "report", place, "--model", self.folder / "wall.gltf", "--leave-out"]
+        done = run(*command, "no.png")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('no photograph "no.png" to leave out', done.stderr)
+        done = run(*command, "p1_north.png", "--leave-out", "p1_south.png")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("SSIM", done.stdout)
+        self.assertIn("p1_south.png             layers                     shows nothing of the model", done.stdout)
+        methods = ["layers", "single_best_view", "extracted_texture", "view_dependent_subdivided", "unstructured_lumigraph"]
+        for method in methods:
+            psnr_db = re.search(f"mean  *{method}  *([\\d.]+)", done.stdout)
+            self.assertGreater(float(psnr_db[1]), 25, done.stdout)
 
     def test_a_damaged_pack_is_named(self):
         (self.folder / "place.facade").write_bytes(b"PVFACE_1" + b"x" * 100)
@@ -1403,6 +1419,10 @@ class Trees(Captured):
         capture, volume = self.photograph(8), self.folder / "a.volume"
         quick = ["--level", "3", "--coarse-epochs", "1", "--fine-epochs", "0"]
         self.assertEqual(run("tree", "reconstruct", capture, "-o", volume, *quick).returncode, 0)
+        truth, found = (float(re.search(r"height ([\d.]+) m", text)[1])
+                        for text in ((capture / "truth.txt").read_text(), run("tree", "measure", volume).stdout))
+        self.assertAlmostEqual(found, truth, delta=0.1 * truth)  # pictures of 64 x 64
+        self.assertEqual((capture / "truth.glb").read_bytes()[:4], b"glTF")
         plain, whole = self.folder / "plain.tree", self.folder / "whole.tree"
         self.assertEqual(run("tree", "texture", capture, volume, "-o", plain, "--parents", "0").returncode, 0)
         done = run("tree", "texture", capture, volume, "-o", whole, "--parents", "0", "--trunk")

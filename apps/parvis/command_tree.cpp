@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "base/files.h"
 #include "base/image_io.h"
 #include "base/kept_parts.h"
 #include "base/path_inside.h"
@@ -24,6 +25,7 @@
 #include "capture/trees/texture_codes.h"
 #include "capture/trees/tree_file.h"
 #include "commands.h"
+#include "formats/gltf/gltf_writer.h"
 #include "graphics/gl/context.h"
 #include "house/stage/output_names.h"
 #include "interruption.h"
@@ -93,6 +95,29 @@ void add_choice(CLI::App& command, const char* option, Value& value,
       ->check(CLI::IsMember(names, CLI::ignore_case));
 }
 
+/// What is measured of a tree, a row each, without what is measured of volumes alone where it is of a model.
+std::string measure_rows(const trees::TreeMeasures& m) {
+  std::string rows =
+      fmt::format("height {:.2f} m\ncrown base {:.2f} m\ncrown width {:.2f} m\ncrown volume {:.1f} m3\n",
+                  m.height_m, m.crown_base_m, m.crown_width_m, m.crown_volume_m3);
+  if (m.projected_area_m2 > 0.0f) rows += fmt::format("projected area {:.1f} m2\n", m.projected_area_m2);
+  rows += fmt::format("trunk diameter {:.2f} m\n", m.trunk_diameter_m);
+  if (m.leaf_area_density_per_m.empty()) return rows;
+  rows += "leaf area density per tenth of the height, from below (1/m):";
+  for (const float density : m.leaf_area_density_per_m) rows += fmt::format(" {:.2f}", density);
+  return rows + "\n";
+}
+
+/// The tree that was photographed, and its measures as `parvis tree measure` prints them.
+Status write_truth(const std::filesystem::path& folder, const scene::Model& model) {
+  const Result<std::filesystem::path> mesh = path_inside(folder, "truth.glb"),
+                                      rows = path_inside(folder, "truth.txt");
+  if (!mesh) return mesh.errors();
+  if (!rows) return rows.errors();
+  if (Status status = scene::write_gltf(*mesh, model); !status) return status;
+  return write_file(*rows, measure_rows(trees::measured(model)));
+}
+
 Status synthesize(SynthesizeArguments arguments) {
   if (Status status = parse_size(arguments.size, arguments.capture.width, arguments.capture.height); !status)
     return status;
@@ -124,6 +149,7 @@ Status synthesize(SynthesizeArguments arguments) {
         !status)
       return status;
   }
+  if (Status status = write_truth(arguments.folder, *model); !status) return status;
   checkpoint.remove();
   return Done{};
 }
@@ -224,15 +250,7 @@ Status pack(const PackArguments& arguments) {
 Status measure(const FileArguments& arguments) {
   const Result<trees::TreeVolume> volume = trees::read_volume(arguments.file);
   if (!volume) return volume.errors();
-  const trees::TreeMeasures m = trees::measured(*volume);
-  fmt::print(
-      "height {:.2f} m\ncrown base {:.2f} m\ncrown width {:.2f} m\ncrown volume {:.1f} m3\nprojected area "
-      "{:.1f} m2\n"
-      "trunk diameter {:.2f} m\nleaf area density per tenth of the height, from below (1/m):",
-      m.height_m, m.crown_base_m, m.crown_width_m, m.crown_volume_m3, m.projected_area_m2,
-      m.trunk_diameter_m);
-  for (const float density : m.leaf_area_density_per_m) fmt::print(" {:.2f}", density);
-  fmt::print("\n");
+  fmt::print("{}", measure_rows(trees::measured(*volume)));
   return Done{};
 }
 

@@ -17,7 +17,7 @@ Status write_place(const FacadeExportArguments& arguments) {
   const std::filesystem::path packed = arguments.folder / "place.facade";
   std::error_code code;
   if (!std::filesystem::exists(packed, code))
-    return error("{}: the place is not packed; run parvis facade pack {}", packed.string(),
+    return error("{}: the place is not packed; run parvis facade pack \"{}\"", packed.string(),
                  arguments.folder.string());
   if (arguments.output.extension() != ".glb")
     return error("{}: a place is written as .glb", arguments.output.string());

@@ -1,12 +1,17 @@
 // parvis facade layers, fill, pack, report, figures: from a calibrated place with a model to a scene.
+#include <algorithm>
 #include <memory>
 
+#include "base/image_io.h"
 #include "base/known_names.h"
 #include "base/path_inside.h"
+#include "capture/facades/held_out.h"
 #include "capture/facades/place_figures.h"
 #include "capture/facades/place_report.h"
+#include "capture/facades/rephotography.h"
 #include "facade_place.h"
 #include "facade_stages.h"
+#include "graphics/reference/metrics.h"
 
 namespace parvis {
 namespace {
@@ -55,16 +60,83 @@ Status fill(const FillArguments& arguments) {
   return write_layers(arguments.place, true);
 }
 
+/// A row for each method and photograph that was left out, and for each method's means.
+Status judge_left_out(const std::vector<photographs::Photograph>& left_out, const facades::PlaceSource& used,
+                      const facades::PlaceLayers& place, const facades::PackedFacade& facade) {
+  const std::vector<facades::PreparedPhoto> prepared = facades::prepared_as_layers(used.photographs, place);
+  struct Row {
+    std::string method;
+    int count = 0;  ///< photographs that show the model by it
+    double psnr_db = 0.0, psnr_cc_db = 0.0, ssim = 0.0, covered_percent = 0.0;
+  };
+  std::vector<Row> means;
+  const auto print = [](const std::string& name, const Row& row) {
+    if (row.count == 0) {
+      fmt::print("{:<24} {:<26} shows nothing of the model\n", name, row.method);
+      return;
+    }
+    fmt::print("{:<24} {:<26} {:>8.2f} {:>14.2f} {:>6.3f} {:>10.1f}\n", name, row.method, row.psnr_db,
+               row.psnr_cc_db, row.ssim, row.covered_percent);
+  };
+  fmt::print("{:<24} {:<26} {:>8} {:>14} {:>6} {:>10}\n", "left out", "method", "PSNR dB", "with its light",
+             "SSIM", "covered %");
+  for (const photographs::Photograph& photo : left_out) {
+    const Result<facades::View> view = facades::view_of(photo);
+    if (!view) return view.errors();
+    const Result<Image8> truth = read_image8(photo.file);
+    if (!truth) return truth.errors();
+    const Image8 model = facades::model_mask(place.model, *view);
+    const std::vector<facades::MethodView> shown = facades::views_of_methods(place, facade, prepared, *view);
+    means.resize(shown.size());
+    for (std::size_t m = 0; m < shown.size(); ++m) {
+      const facades::Rephotography judged = facades::rephotography(shown[m].picture, *truth, model);
+      Image8 covered = model;
+      for (std::size_t i = 0; i < covered.pixels.size(); ++i)
+        if (shown[m].picture.pixels[4 * i + 3] == 0) covered.pixels[i] = 0;
+      const Result<reference::Difference> difference = reference::compare(shown[m].picture, *truth, covered);
+      const Row row{shown[m].method,   judged.covered_percent > 0.0,        judged.psnr_db,
+                    judged.psnr_cc_db, difference ? difference->ssim : 0.0, judged.covered_percent};
+      print(photo.name, row);
+      Row& mean = means[m];
+      mean.method = row.method;
+      if (row.count == 0) continue;
+      const double share = 1.0 / ++mean.count;
+      mean.psnr_db += share * (row.psnr_db - mean.psnr_db);
+      mean.psnr_cc_db += share * (row.psnr_cc_db - mean.psnr_cc_db);
+      mean.ssim += share * (row.ssim - mean.ssim);
+      mean.covered_percent += share * (row.covered_percent - mean.covered_percent);
+    }
+  }
+  if (left_out.size() > 1)
+    for (const Row& row : means) print("mean", row);
+  return Done{};
+}
+
 Status report(const PlaceArguments& arguments) {
-  const Result<facades::PlaceSource> source = open_place(arguments);
+  PlaceArguments all = arguments;
+  all.left_out.clear();
+  Result<facades::PlaceSource> source = open_place(all);
   if (!source) return source.errors();
+  std::vector<photographs::Photograph> left_out;
+  std::vector<std::string> names;
+  for (const photographs::Photograph& photo : source->photographs) names.push_back(photo.name);
+  for (const std::string& name : arguments.left_out) {
+    const auto found = std::ranges::find(source->photographs, name, &photographs::Photograph::name);
+    if (found == source->photographs.end())
+      return error("{}: there is no photograph \"{}\" to leave out{}", arguments.folder.string(), name,
+                   names_that_exist(name, names));
+    left_out.push_back(*found);
+    source->photographs.erase(found);
+  }
   const Result<facades::PlaceLayers> place = open_layers(*source, arguments.settings);
   if (!place) return place.errors();
   const Result<std::filesystem::path> inside = path_inside(arguments.folder, "report");
   if (!inside) return inside.errors();
   const std::filesystem::path& folder = *inside;
-  if (Status status = facades::write_report(folder, *place, facades::packed_facade(*place)); !status)
-    return status;
+  const facades::PackedFacade facade = facades::packed_facade(*place);
+  if (Status status = facades::write_report(folder, *place, facade); !status) return status;
+  if (!left_out.empty())
+    if (Status status = judge_left_out(left_out, *source, *place, facade); !status) return status;
   fmt::print("written to {}\n", (folder / "index.html").string());
   return Done{};
 }

@@ -62,8 +62,8 @@ Result<facades::PlaceSource> open_place(const PlaceArguments& arguments) {
       arguments.model.empty() ? arguments.folder / "model.glb" : arguments.model;
   std::error_code code;
   if (!std::filesystem::exists(file, code))
-    return error("{}: there is no model; run parvis facade model {}, or give one by --model", file.string(),
-                 arguments.folder.string());
+    return error("{}: there is no model; run parvis facade model \"{}\", or give one by --model",
+                 file.string(), arguments.folder.string());
   Result<std::vector<facades::NamedMesh>> meshes = read_meshes(file);
   if (!meshes) return meshes.errors();
   return facades::read_place(arguments.folder, *std::move(meshes), arguments.left_out);
@@ -79,7 +79,8 @@ Result<facades::PlaceLayers> open_layers(const facades::PlaceSource& source,
 Status finish_place(const PlaceArguments& arguments, bool writes_pictures) {
   const Result<facades::PlaceSource> source = open_place(arguments);
   if (!source) return source.errors();
-  const std::string look = fmt::format("look: parvis view {}\n", (arguments.folder / "place.xp").string());
+  const std::string look =
+      fmt::format("look: parvis view \"{}\"\n", (arguments.folder / "place.xp").string());
   if (writes_pictures && facades::is_packed(*source, arguments.settings)) {
     fmt::print("{} is packed as it is\n{}", arguments.folder.string(), look);
     return Done{};

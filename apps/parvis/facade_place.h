@@ -15,14 +15,14 @@ struct PlaceArguments {
   std::vector<std::string> left_out;
   facades::PlaceSettings settings;
 
-  /// FOLDER, --model, --leave-out and --flatten-shadows.
+  /// FOLDER and the choices.
   void add(CLI::App& stage) {
     stage.add_option("folder", folder, "Folder of calibrated photographs")
         ->required()
         ->check(CLI::ExistingDirectory);
     add_choices(stage);
   }
-  /// --model, --leave-out and --flatten-shadows: for a stage that knows the folder.
+  /// --model, --leave-out, --flatten-shadows and --carry-edits: for a stage that knows the folder.
   void add_choices(CLI::App& stage) {
     stage
         .add_option(
@@ -32,6 +32,8 @@ struct PlaceArguments {
     stage.add_option("--leave-out", left_out, "A photograph that is not used, by its name; may repeat");
     stage.add_flag("--flatten-shadows", settings.flattens_shadows,
                    "Take out cast shadows that moved with the sun between photographs");
+    stage.add_flag("--carry-edits", settings.carries_edits,
+                   "Paint what was painted in one photograph's picture into the others that show the place");
   }
 };
 

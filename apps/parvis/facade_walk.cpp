@@ -24,7 +24,8 @@ Status walk(FacadeWalkArguments& arguments) {
   const bool needs_model = arguments.place.model.empty() && !std::filesystem::exists(file, code);
   if (!needs_model && !arguments.scan.empty())
     fmt::print(stderr,
-               "{} is there and is kept; parvis facade model {} --scan {} --overwrite makes it of the scan\n",
+               "{} is there and is kept; parvis facade model \"{}\" --scan \"{}\" --overwrite makes it of "
+               "the scan\n",
                file.string(), folder.string(), arguments.scan.string());
   if (Status status = arguments.calibration.run(); !status) return status;
   if (needs_model && !arguments.scan.empty()) {

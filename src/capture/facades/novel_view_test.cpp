@@ -9,8 +9,8 @@
 #include "base/parallel.h"
 #include "capture/facades/balance.h"
 #include "capture/facades/blend.h"
+#include "capture/facades/rephotography.h"
 #include "capture/facades/test_model.h"
-#include "capture/facades/test_rephotography.h"
 
 namespace parvis::facades {
 namespace {

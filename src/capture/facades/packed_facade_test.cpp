@@ -10,8 +10,8 @@
 #include "base/files.h"
 #include "base/test_data.h"
 #include "capture/facades/facade_lookup.h"
+#include "capture/facades/rephotography.h"
 #include "capture/facades/test_measure_place.h"
-#include "capture/facades/test_rephotography.h"
 #include "capture/facades/test_street.h"
 
 namespace parvis::facades {

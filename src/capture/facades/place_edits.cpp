@@ -2,6 +2,7 @@
 // when it was written, on the model and with the cameras of that time.
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "base/files.h"
 #include "base/path_inside.h"
@@ -155,17 +156,77 @@ void mark_painted(const LayerPixels& before, Filled& filled) {
         filled.sources[l].pixels[p / 4] = std::uint8_t(FillSource::painted);
 }
 
-Status paint(const fs::path& folder, std::size_t i, PlaceLayers& place) {
-  const fs::path file = edits_file(folder, place.names[i]);
-  std::error_code code;
-  if (!fs::exists(file, code)) return Done{};
-  const Result<LayerEdits> edits = read_edits(file);
-  if (!edits) return edits.errors();
+Errors paint(const LayerEdits& edits, std::size_t i, PlaceLayers& place) {
   const LayerPixels before = place.filled[i].pixels;
-  const AppliedEdits applied = apply(*edits, place.layers(i), place.names[i], place.filled[i].pixels);
+  AppliedEdits applied = apply(edits, place.layers(i), place.names[i], place.filled[i].pixels);
   mark_painted(before, place.filled[i]);
-  place.warnings.insert(place.warnings.end(), applied.messages.begin(), applied.messages.end());
-  return Done{};
+  return std::move(applied.messages);
+}
+
+/// What was painted in photograph `from`, as photograph `to` shows it; what was made transparent stays there.
+LayerEdits carried(const LayerEdits& edits, const PlaceLayers& place, std::size_t from, std::size_t to) {
+  const View &a = place.views[from], &b = place.views[to];
+  LayerEdits result;
+  std::multimap<std::pair<int, int>, std::pair<std::size_t, const EditedPixel*>> painted;
+  for (const ObjectEdits& object : edits) {
+    for (const EditedPixel& pixel : object.pixels)
+      if (pixel.rgba[3] > 0) painted.insert({{pixel.x, pixel.y}, {result.size(), &pixel}});
+    result.push_back({object.object, object.layer, {}});
+  }
+  const ItemBuffer seen = item_buffer(place.model, b);
+  for (int y = 0; y < b.height; ++y)
+    for (int x = 0; x < b.width; ++x) {
+      if (seen.triangles[seen.index(x, y)] == no_triangle_seen) continue;
+      const float depth = seen.depths[seen.index(x, y)];
+      const glm::dvec3 in_a = a.to_camera(b.to_world({x + 0.5, y + 0.5}, double(depth)));
+      if (!(in_a.z > 0.0)) continue;
+      const glm::dvec2 at = glm::floor(a.to_pixel(in_a));
+      if (!(at.x >= 0.0 && at.y >= 0.0 && at.x < a.width && at.y < a.height)) continue;
+      const auto [first, last] = painted.equal_range({int(at.x), int(at.y)});
+      for (auto found = first; found != last; ++found)
+        if (const auto& [object, pixel] = found->second;
+            std::abs(in_a.z - double(pixel->depth)) < double(same_surface_tolerance) * in_a.z)
+          result[object].pixels.push_back({x, y, depth, pixel->rgba});
+    }
+  return result;
+}
+
+std::size_t pixel_count(const LayerEdits& edits) {
+  std::size_t count = 0;
+  for (const ObjectEdits& object : edits) count += object.pixels.size();
+  return count;
+}
+
+/// Paints the edits of each photograph; and, where `settings` say so, carries them into the others, below
+/// these photographs' own.
+void paint_all(const fs::path& folder, const PlaceSettings& settings, PlaceLayers& place) {
+  std::map<std::size_t, LayerEdits> edits;
+  std::error_code code;
+  for (std::size_t i = 0; i < place.names.size(); ++i) {
+    const fs::path file = edits_file(folder, place.names[i]);
+    if (!fs::exists(file, code)) continue;
+    Result<LayerEdits> read = read_edits(file);
+    if (read)
+      edits[i] = *std::move(read);
+    else
+      append(place.warnings, read.errors());
+  }
+  for (const auto& [from, painted] : edits) {
+    std::string others;
+    for (std::size_t to = 0; to < place.names.size(); ++to) {
+      if (to == from) continue;
+      const LayerEdits there = carried(painted, place, from, to);
+      if (pixel_count(there) == 0) continue;
+      others += (others.empty() ? "" : ", ") + place.names[to];
+      if (settings.carries_edits) paint(there, to, place);
+    }
+    if (!others.empty() && !settings.carries_edits)
+      place.warnings.push_back(
+          error("{}: other photographs show what was painted in it as it was ({}): views between them mix "
+                "both. --carry-edits paints it into those, too",
+                place.names[from], others));
+  }
+  for (const auto& [i, painted] : edits) append(place.warnings, paint(painted, i, place));
 }
 
 /// Layers and edits are read and written inside the place's own folder alone.
@@ -203,9 +264,7 @@ Result<PlaceLayers> make_place(const PlaceSource& source, const PlaceSettings& s
   const Result<std::vector<FillingChoice>> choices = read_choices(source.folder);
   if (!choices) return choices.errors();
   append(place->warnings, apply_choices(*choices, *place));
-  for (std::size_t i = 0; i < place->names.size(); ++i)
-    if (const Status status = paint(source.folder, i, *place); !status)
-      append(place->warnings, status.errors());
+  paint_all(source.folder, settings, *place);
   return place;
 }
 

@@ -82,14 +82,38 @@ TEST(PlaceEdits, WhatWasPaintedIsCollectedAndKept) {
   EXPECT_EQ(blue_pixels(place.made(), "far"), std::pair(0, 0)) << "the control: nothing was painted yet";
   paint_far(place.psd());
   const PlaceLayers painted = place.made();
-  EXPECT_TRUE(painted.warnings.empty())
+  ASSERT_EQ(painted.warnings.size(), 1u)
       << "all layers are found by their names: " << to_string(painted.warnings);
+  EXPECT_NE(painted.warnings[0].message.find("0001.png: other photographs show"), std::string::npos)
+      << to_string(painted.warnings);
   EXPECT_EQ(blue_pixels(painted, "far"), std::pair(100, 100));
   // Written once more, the picture holds the edit, and nothing is collected twice.
   place.write(painted);
   EXPECT_EQ(blue_pixels(place.made(), "far"), std::pair(100, 100));
   // The packed facade shows it at the photograph's own place.
   EXPECT_TRUE(fs::exists(place.folder / "layers" / "edits" / "0001.edits"));
+}
+
+TEST(PlaceEdits, AreCarriedIntoPhotographsThatShowThePlace) {
+  const Written place;
+  paint_far(place.psd());
+  const auto blue_elsewhere = [](const PlaceLayers& made) {
+    int count = 0;
+    for (const std::size_t photo : {0u, 2u})
+      for (const Image8& layer : made.filled[photo].pixels)
+        for (std::size_t p = 0; p < layer.pixels.size(); p += 4)
+          count += layer.pixels[p] == 1 && layer.pixels[p + 1] == 2 && layer.pixels[p + 2] == 250;
+    return count;
+  };
+  EXPECT_EQ(blue_elsewhere(place.made()), 0);
+  PlaceSettings settings;
+  settings.carries_edits = true;
+  const Result<PlaceLayers> carried = make_place(place.source, settings);
+  ASSERT_TRUE(carried) << to_string(carried.errors());
+  EXPECT_TRUE(carried->warnings.empty()) << to_string(carried->warnings);
+  EXPECT_EQ(blue_pixels(*carried, "far"), std::pair(100, 100));
+  // The cameras look the same way from as far: each sees the square as large, where nothing hides it.
+  EXPECT_GE(blue_elsewhere(*carried), 80);
 }
 
 TEST(PlaceEdits, SurviveAChangedModelOrAreReported) {

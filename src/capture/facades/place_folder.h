@@ -56,7 +56,8 @@ Errors apply_choices(const std::vector<FillingChoice>& choices, PlaceLayers& pla
 
 /// The layers of the place with its choices and edits: collects what was painted in layers/*.psd since they
 /// were written, keeps it in layers/edits/, and paints it on the present layers. What no longer fits is in
-/// the warnings, and stays in the edits.
+/// the warnings, and stays in the edits. Views between photographs mix them: an edit that others show, too,
+/// is in the warnings, or is painted into those where `settings` carry edits.
 Result<PlaceLayers> make_place(const PlaceSource& source, const PlaceSettings& settings = {});
 
 /// Writes layers/NAME.psd of every photograph, with proposals that were not refused. A picture that holds

@@ -37,6 +37,7 @@ class LayerKeeper;
 struct PlaceSettings {
   bool balances_colours = true, finds_occluders = true, fills = true;
   bool flattens_shadows = false;  ///< see moved_shadows.h; only with balances_colours
+  bool carries_edits = false;  ///< paints edits into the other photographs that show the place (make_place)
 };
 
 /// Makes them. Photographs without pixels, of another size than their cameras, or with lens distortion are

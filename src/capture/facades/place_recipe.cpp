@@ -40,6 +40,7 @@ std::string recipe_of(const PlaceSource& source, const PlaceSettings& settings) 
   ContentHash hash = geometry_of(source);
   std::string text = fmt::format("packing {}\n", packing_version);
   if (settings.flattens_shadows) text += "shadows flattened\n";
+  if (settings.carries_edits) text += "edits carried\n";
   for (const photographs::Photograph& photo : source.photographs)
     text += state_of(photo.file) + state_of(photo.mask);
   const Result<std::string> choices = read_file(source.folder / "filling.txt", 1 << 24);

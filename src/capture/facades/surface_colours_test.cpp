@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture/facades/test_shown_colours.h"
+#include "capture/facades/shown_colours.h"
 #include "capture/facades/test_street.h"
 
 namespace parvis::facades {

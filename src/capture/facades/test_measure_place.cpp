@@ -7,73 +7,21 @@
 
 #include "base/colour.h"
 #include "base/image_io.h"
+#include "capture/facades/baselines.h"
+#include "capture/facades/held_out.h"
 #include "capture/facades/packed_facade.h"
+#include "capture/facades/rephotography.h"
 #include "capture/facades/scan_trim.h"
-#include "capture/facades/test_baselines.h"
-#include "capture/facades/test_rephotography.h"
-#include "capture/facades/test_shown_colours.h"
+#include "capture/facades/shown_colours.h"
 
 namespace parvis::facades {
 namespace {
 
 using photographs::Photograph;
 
-/// A view of a facade, which is sRGB already, as bytes.
-Image8 rgba8_of(const ImageF& srgb) {
-  Image8 bytes(srgb.width, srgb.height, 4);
-  for (std::size_t i = 0; i < bytes.pixels.size(); ++i)
-    bytes.pixels[i] = std::uint8_t(std::lround(255.0f * std::clamp(srgb.pixels[i], 0.0f, 1.0f)));
-  return bytes;
-}
-
-/// White where a view sees the model.
-Image8 model_mask(const LayerModel& model, const View& view) {
-  const ItemBuffer seen = item_buffer(model, view);
-  Image8 mask(view.width, view.height, 1);
-  for (std::size_t i = 0; i < mask.pixels.size(); ++i)
-    mask.pixels[i] = seen.triangles[i] == no_triangle_seen ? 0 : 255;
-  return mask;
-}
-
-/// 0 where the layers do not count a pixel of the model as seen.
-ImageF trust_of(const LayeredView& layered, const PreparedPhoto& photo) {
-  ImageF trust(photo.view.width, photo.view.height, 1);
-  for (std::size_t i = 0; i < trust.pixels.size(); ++i) trust.pixels[i] = !std::isfinite(photo.depths[i]);
-  for (std::size_t l = 0; l < layered.layers.size(); ++l) {
-    const PixelBox& box = layered.layers[l].box;
-    for (int y = 0; y < box.height; ++y)
-      for (int x = 0; x < box.width; ++x)
-        if (layered.masks[l].at(x, y)[1]) *trust.at(x + box.x, y + box.y) = 1.0f;
-  }
-  return trust;
-}
-
-/// The photographs as the layers have them, so that baselines get what layers get: balanced, with what is not
-/// in the model found by colour.
-std::vector<PreparedPhoto> prepared_as_layers(const std::vector<Photograph>& used, const PlaceLayers& place) {
-  std::vector<PreparedPhoto> prepared;
-  for (std::size_t i = 0; i < place.names.size(); ++i) {
-    const auto photo = std::ranges::find(used, place.names[i], &Photograph::name);
-    Result<PreparedPhoto> one = prepared_photo(*photo, place.model);
-    if (!one) continue;
-    apply(place.balances[i], *one);
-    one->trust = trust_of(place.layered[i], *one);
-    prepared.push_back(*std::move(one));
-  }
-  return prepared;
-}
-
 void add(MethodFigures& figures, const Rephotography& judged, double share) {
   figures.psnr_cc_db += share * judged.psnr_cc_db, figures.rephoto += share * judged.error;
   figures.covered_percent += share * judged.covered_percent;
-}
-
-/// The picture with the pixels alone that layers colour. Proposed colours are not judged: baselines show
-/// nothing there.
-Image8 coloured_by_layers(Image8 shown, const std::vector<ColourSource>& sources) {
-  for (std::size_t p = 0; p < sources.size(); ++p)
-    if (sources[p] != ColourSource::layers) shown.pixels[4 * p + 3] = 0;
-  return shown;
 }
 
 /// Without any photograph: what is proposed for what no photograph shows is left.

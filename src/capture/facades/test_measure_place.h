@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "capture/facades/packed_facade.h"
-#include "capture/facades/test_shown_colours.h"
+#include "capture/facades/shown_colours.h"
 #include "capture/photographs/photograph.h"
 
 namespace parvis::facades {

@@ -1,4 +1,4 @@
-#include "capture/facades/test_drawn_facade.h"
+#include "capture/facades/drawn_facade.h"
 
 namespace parvis::facades {
 

@@ -1,4 +1,4 @@
-#include "capture/facades/test_shown_colours.h"
+#include "capture/facades/shown_colours.h"
 
 #include "base/random.h"
 

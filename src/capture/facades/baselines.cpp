@@ -1,6 +1,6 @@
 // Both methods that work on surfaces (extraction and subdivision) are evaluated lazily: a texel, or a part of
 // a face, is computed when a pixel first asks for it. The pictures are those of whole textures and meshes.
-#include "capture/facades/test_baselines.h"
+#include "capture/facades/baselines.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "capture/facades/drawn_facade.h"
 #include "capture/facades/packed_facade.h"
-#include "capture/facades/test_drawn_facade.h"
 
 namespace parvis::facades {
 

@@ -1,4 +1,4 @@
-#include "capture/facades/test_rephotography.h"
+#include "capture/facades/rephotography.h"
 
 #include <algorithm>
 #include <array>
