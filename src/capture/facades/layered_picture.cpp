@@ -35,14 +35,42 @@ Image8 with_channels(const Image8& image, int channels) {
   return result;
 }
 
-/// The part of an edited layer that lies in `box`; what the editor left outside its layer is transparent.
-Image8 part_in(const PsdLayer& layer, const PixelBox& box) {
-  Image8 part(box.width, box.height, 4);
+/// Whether a layer's mask hides something: it is enabled, and not the one that was written, which some
+/// editors enable. `masks`: of the image layer in `box`.
+bool is_masked(const PsdLayer& layer, const Image8& masks, const PixelBox& box) {
+  if (!layer.is_mask_enabled || layer.mask.empty()) return false;
   for (int y = 0; y < box.height; ++y)
     for (int x = 0; x < box.width; ++x)
-      if (layer.box.contains(x + box.x, y + box.y))
-        std::copy_n(layer.pixels.at(x + box.x - layer.box.x, y + box.y - layer.box.y), 4, part.at(x, y));
+      if (layer.box.contains(x + box.x, y + box.y) &&
+          *layer.mask.at(x + box.x - layer.box.x, y + box.y - layer.box.y) != masks.at(x, y)[1])
+        return true;
+  return false;
+}
+
+/// The part of an edited layer that lies in `box`, with its mask where that counts, and its opacity; what the
+/// editor left outside its layer is transparent.
+Image8 part_in(const PsdLayer& layer, const PixelBox& box, bool uses_mask) {
+  Image8 part(box.width, box.height, 4);
+  for (int y = 0; y < box.height; ++y)
+    for (int x = 0; x < box.width; ++x) {
+      if (!layer.box.contains(x + box.x, y + box.y)) continue;
+      const int from_x = x + box.x - layer.box.x, from_y = y + box.y - layer.box.y;
+      std::copy_n(layer.pixels.at(from_x, from_y), 4, part.at(x, y));
+      const int shown =
+          uses_mask ? (*layer.mask.at(from_x, from_y) * layer.opacity + 127) / 255 : int(layer.opacity);
+      std::uint8_t& alpha = part.at(x, y)[3];
+      alpha = std::uint8_t((alpha * shown + 127) / 255);
+    }
   return part;
+}
+
+/// What an editor shows of a layer and is not read back.
+std::string not_read(const PsdLayer& layer) {
+  std::string what;
+  if (layer.blend != "norm") what += fmt::format("its blend mode \"{}\", ", layer.blend);
+  if (layer.is_clipped) what += "its clipping to the layer below, ";
+  if (layer.is_in_masked_group) what += "the mask of its group, ";
+  return what.substr(0, what.size() - std::min<std::size_t>(what.size(), 2));
 }
 
 /// Editors may crop a layer to what is not transparent: that still is the layer. Anything else is another
@@ -118,6 +146,16 @@ Result<ReadLayers> read_layers(const PsdPicture& edited, const LayeredView& laye
 
   const auto take = [&](const PsdLayer& layer, std::size_t i) {
     result.was_found[i] = true;
+    if (layer.is_hidden) {
+      result.messages.push_back(
+          error("{}: layer \"{}\" is hidden, or in a hidden group; it stays as it was: show it, and save",
+                name, layer.name));
+      return;
+    }
+    if (const std::string what = not_read(layer); !what.empty())
+      result.messages.push_back(
+          error("{}: layer \"{}\": {} is left out; merge the layer in the image editor to keep what it shows",
+                name, layer.name, what));
     if (!is_cropped_only(layer, layered.layers[i].box))
       result.messages.push_back(
           error("{}: layer \"{}\" was moved or resized: {} x {} at {},{}, expected {} x {} at {},{}; what "
@@ -126,7 +164,8 @@ Result<ReadLayers> read_layers(const PsdPicture& edited, const LayeredView& laye
                 name, layer.name, layer.box.width, layer.box.height, layer.box.x, layer.box.y,
                 layered.layers[i].box.width, layered.layers[i].box.height, layered.layers[i].box.x,
                 layered.layers[i].box.y));
-    result.pixels[i] = part_in(layer, layered.layers[i].box);
+    const PixelBox& box = layered.layers[i].box;
+    result.pixels[i] = part_in(layer, box, is_masked(layer, layered.masks[i], box));
   };
 
   std::vector<const PsdLayer*> unknown;

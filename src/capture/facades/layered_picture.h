@@ -32,11 +32,13 @@ PsdPicture layered_picture(const Image8& photograph, const LayeredView& layered,
 struct ReadLayers {
   LayerPixels pixels;           ///< of every image layer; as written where the picture lacks it
   std::vector<bool> was_found;  ///< per image layer
-  Errors messages;  ///< an entry for each layer that was renamed, deleted, merged, resized, and for 16 bits
+  Errors messages;  ///< an entry for each layer that was renamed, deleted, merged, resized, hidden, that is
+                    ///< blended, clipped or in a masked group, and for 16 bits
 };
 
 /// Matches the layers of an edited picture with those written: by name, and where a name is gone, by their
-/// boxes. Order does not matter. Fails only where the picture as a whole was resized.
+/// boxes. Order does not matter. Opacity and masks are read, with those of groups; hidden layers stay as they
+/// were written. Fails only where the picture as a whole was resized.
 Result<ReadLayers> read_layers(const PsdPicture& edited, const LayeredView& layered,
                                const LayerPixels& written, int width, int height, const std::string& name);
 

@@ -20,8 +20,11 @@ struct PsdLayer {
   Image8 pixels;  ///< RGBA of the box, sRGB, alpha not premultiplied
   Image8 mask;    ///< layer mask of the box, 1 channel; empty: none
   bool is_mask_enabled = false;
-  bool is_hidden = false;
-  std::uint8_t opacity = 255;
+  bool is_hidden = false;      ///< itself, or a group that it is in
+  std::uint8_t opacity = 255;  ///< with that of the groups that it is in
+  std::string blend = "norm";  ///< key of its blend mode, or of a group's that is not normal
+  bool is_clipped = false;     ///< to the layer below
+  bool is_in_masked_group = false;
 };
 
 /// A layered picture as a PSD file holds it.
@@ -42,9 +45,9 @@ inline constexpr std::size_t max_psd_bytes = std::size_t(4) << 30;
 /// picture or a layer is too large for the format.
 Status write_psd(const std::filesystem::path& file, const PsdPicture& picture);
 
-/// Reads RGB files of 8 or 16 bits per channel, layers uncompressed, run-length or zip encoded. Group markers
-/// are left out, the layers within groups are kept. Errors name the file, what was found and what to do
-/// (another colour mode, PSB, cut short).
+/// Reads RGB files of 8 or 16 bits per channel, layers uncompressed, run-length or zip encoded. Groups become
+/// what they do to the layers within. A mask without area has the value of its surroundings. Errors name the
+/// file, what was found and what to do (another colour mode, PSB, cut short).
 Result<PsdPicture> read_psd(const std::filesystem::path& file);
 /// The same from memory; `name` stands in errors.
 Result<PsdPicture> read_psd(std::span<const std::uint8_t> bytes, const std::string& name);

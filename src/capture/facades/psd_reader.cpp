@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <ranges>
 #include <span>
 
 #include "base/files.h"
@@ -61,8 +62,9 @@ struct LayerRecord {
   PsdLayer layer;
   PixelBox mask_box;
   std::uint8_t mask_outside = 0;
+  bool has_mask = false;
   std::vector<ChannelRecord> channels;
-  bool is_group_marker = false;
+  std::uint32_t section = 0;  ///< 0: a layer; 1, 2: a group, above its layers; 3: its end, below them
 };
 
 /// A rectangle (top, left, bottom, right), or nothing where it cannot be one.
@@ -98,6 +100,7 @@ bool read_extra(Reader extra, LayerRecord& record) {
   Reader mask = extra.section(extra.u32());
   if (mask.left() >= 18) {
     if (!read_box(mask, record.mask_box)) return false;
+    record.has_mask = true;
     record.mask_outside = std::uint8_t(mask.u8());
     record.layer.is_mask_enabled = !(mask.u8() & 2);
   }
@@ -110,7 +113,7 @@ bool read_extra(Reader extra, LayerRecord& record) {
     const std::string key = extra.text(4);
     Reader block = extra.section(extra.u32());
     if (key == "luni") record.layer.name = unicode_name(block);
-    if (key == "lsct") record.is_group_marker = block.u32() != 0;
+    if (key == "lsct") record.section = block.u32();
   }
   return true;
 }
@@ -125,9 +128,10 @@ Status read_record(Reader& reader, LayerRecord& record, const std::string& name,
     const int id = reader.i16();
     record.channels.push_back({id, reader.u32()});
   }
-  reader.take(8);  // blend mode
+  reader.take(4);
+  record.layer.blend = reader.text(4);
   record.layer.opacity = std::uint8_t(reader.u8());
-  reader.take(1);
+  record.layer.is_clipped = reader.u8() != 0;
   record.layer.is_hidden = reader.u8() & 2;
   reader.take(1);
   if (!read_extra(reader.section(reader.u32()), record))
@@ -245,7 +249,31 @@ Status read_pixels(Reader& reader, LayerRecord& record, int bits, std::size_t& b
     }
     if (!is_sound) return error("{}: a channel of layer \"{}\" is cut short or damaged", name, layer.name);
   }
+  if (record.has_mask && record.mask_box.empty()) {  // it hides all, or nothing
+    if (Status status = claim(layer.box, 1); !status) return status;
+    layer.mask = Image8(layer.box.width, layer.box.height, 1, record.mask_outside);
+  }
   return Done{};
+}
+
+/// What the groups around each layer do to it. `records`: bottom first, a group's end below its layers.
+void apply_groups(std::vector<LayerRecord>& records) {
+  std::vector<PsdLayer> around{PsdLayer{}};
+  for (LayerRecord& record : std::views::reverse(records)) {
+    if (record.section == 3) {
+      if (around.size() > 1) around.pop_back();
+      continue;
+    }
+    PsdLayer& layer = record.layer;
+    const PsdLayer& group = around.back();
+    layer.is_hidden = layer.is_hidden || group.is_hidden;
+    layer.opacity = std::uint8_t((layer.opacity * group.opacity + 127) / 255);
+    layer.is_in_masked_group = group.is_in_masked_group;
+    if (layer.blend == "norm" || layer.blend == "pass") layer.blend = group.blend;
+    if (record.section == 0) continue;
+    around.push_back(layer);
+    around.back().is_in_masked_group = group.is_in_masked_group || (record.has_mask && layer.is_mask_enabled);
+  }
 }
 
 Status read_layers(Reader reader, PsdPicture& picture, const std::string& name) {
@@ -256,10 +284,11 @@ Status read_layers(Reader reader, PsdPicture& picture, const std::string& name) 
     if (const Status read = read_record(reader, records.back(), name, i + 1); !read) return read;
     if (reader.has_ended_early()) return error("{}: cut short after {} of {} layers", name, i, count);
   }
+  apply_groups(records);
   std::size_t budget = max_psd_bytes;
   for (LayerRecord& record : records) {
     if (const Status read = read_pixels(reader, record, picture.file_bits, budget, name); !read) return read;
-    if (!record.is_group_marker) picture.layers.push_back(std::move(record.layer));
+    if (record.section == 0) picture.layers.push_back(std::move(record.layer));
   }
   return Done{};
 }

@@ -168,6 +168,85 @@ TEST(Psd, SixteenBitsAreRoundedToEight) {
     EXPECT_EQ(read->layers[0].pixels.pixels[4 * i], (samples[i] + 128) / 257) << i;
 }
 
+/// A layer of 2 x 2 pixels, or an end of a group.
+struct TestLayer {
+  std::string name;
+  std::uint32_t section = 0, opacity = 255;
+  bool is_hidden = false;
+  std::string blend = "norm";
+  bool is_clipped = false, hides_all = false;
+};
+
+/// As editors write groups: bottom first, the end of a group below its layers, the group itself above them.
+std::string psd_of(const std::vector<TestLayer>& layers) {
+  std::string info, data;
+  put(info, std::uint32_t(layers.size()), 2);
+  for (const TestLayer& layer : layers) {
+    const std::uint32_t side = layer.section ? 0 : 2;
+    for (const std::uint32_t v : {0u, 0u, side, side}) put(info, v, 4);
+    put(info, 4, 2);
+    for (const std::uint32_t id : {0xffffu, 0u, 1u, 2u}) {
+      put(info, id, 2), put(info, 2 + side * side, 4);
+      put(data, 0, 2), data += std::string(side * side, '\xff');
+    }
+    info += "8BIM" + layer.blend;
+    put(info, layer.opacity, 1), put(info, layer.is_clipped, 1), put(info, layer.is_hidden ? 2u : 0u, 1);
+    put(info, 0, 1);
+    std::string extra;
+    put(extra, layer.hides_all ? 20u : 0u, 4);
+    if (layer.hides_all) extra += std::string(20, '\0');  // no area, black outside of it, enabled
+    put(extra, 0, 4);
+    put(extra, std::uint32_t(layer.name.size()), 1), extra += layer.name;
+    while (extra.size() % 4) extra.push_back('\0');
+    if (layer.section) extra += "8BIMlsct", put(extra, 4, 4), put(extra, layer.section, 4);
+    put(info, std::uint32_t(extra.size()), 4);
+    info += extra;
+  }
+  info += data;
+  if (info.size() % 2) info.push_back('\0');
+  std::string file = "8BPS";
+  put(file, 1, 2), put(file, 0, 4), put(file, 0, 2), put(file, 3, 2);
+  put(file, 2, 4), put(file, 2, 4), put(file, 8, 2), put(file, 3, 2);
+  put(file, 0, 4), put(file, 0, 4), put(file, std::uint32_t(info.size() + 8), 4);
+  put(file, std::uint32_t(info.size()), 4);
+  file += info;
+  put(file, 0, 4);
+  return file;
+}
+
+TEST(Psd, LayersHaveWhatTheirGroupsDoToThem) {
+  const Result<PsdPicture> read = read_psd(bytes_of(psd_of({{"base"},
+                                                            {"</Layer group>", 3},
+                                                            {"</Layer group>", 3},
+                                                            {"deep", 0, 128},
+                                                            {"inner", 1, 128, false, "pass"},
+                                                            {"hidden", 0, 255, true},
+                                                            {"outer", 2, 255, false, "mul "},
+                                                            {"</Layer group>", 3},
+                                                            {"unseen"},
+                                                            {"dark", 1, 255, true, "pass"},
+                                                            {"top", 0, 255, false, "scrn", true, true}})),
+                                           "groups.psd");
+  ASSERT_TRUE(read) << to_string(read.errors());
+  const auto layer = [&](const std::string& name) {
+    const auto found = std::ranges::find(read->layers, name, &PsdLayer::name);
+    return found == read->layers.end() ? PsdLayer{} : *found;
+  };
+  ASSERT_EQ(read->layers.size(), 5u) << "groups are none";
+  EXPECT_EQ(layer("base").blend, "norm");
+  EXPECT_EQ(layer("base").opacity, 255);
+  EXPECT_FALSE(layer("base").is_hidden);
+  EXPECT_EQ(layer("deep").opacity, 64);
+  EXPECT_EQ(layer("deep").blend, "mul ");
+  EXPECT_FALSE(layer("deep").is_hidden);
+  EXPECT_TRUE(layer("hidden").is_hidden);
+  EXPECT_TRUE(layer("unseen").is_hidden) << "its group is";
+  EXPECT_EQ(layer("top").blend, "scrn");
+  EXPECT_TRUE(layer("top").is_clipped);
+  EXPECT_TRUE(layer("top").is_mask_enabled);
+  EXPECT_EQ(layer("top").mask.pixels, std::vector<std::uint8_t>(4, 0)) << "a mask that hides all";
+}
+
 struct WrittenPsd {
   LayeredView layered;
   LayerPixels pixels;
@@ -199,6 +278,39 @@ TEST(LayeredPicture, UntouchedLayersComeBackExactly) {
   ASSERT_TRUE(read);
   EXPECT_TRUE(read->messages.empty()) << to_string(read->messages);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(read->pixels[i].pixels, written.pixels[i].pixels);
+}
+
+TEST(LayeredPicture, OpacityAndMasksCountAndTheRestIsNamed) {
+  const WrittenPsd written = written_layers();
+  const auto edited = [&](const auto& edit) {
+    PsdPicture picture = written.picture;
+    edit(picture.layers[1]);  // the farthest: the last of the image layers
+    const Result<ReadLayers> read = read_back(written, picture);
+    EXPECT_TRUE(read);
+    return *read;
+  };
+  const auto alpha = [](const ReadLayers& read) { return int(read.pixels[2].at(0, 0)[3]); };
+  EXPECT_EQ(alpha(edited([](PsdLayer&) {})), 255);
+  EXPECT_EQ(alpha(edited([](PsdLayer& layer) { layer.opacity = 128; })), 128);
+  const ReadLayers ours = edited([](PsdLayer& layer) { layer.is_mask_enabled = true; });
+  EXPECT_EQ(ours.pixels[2].pixels, written.pixels[2].pixels) << "the mask that was written hides nothing";
+  const ReadLayers masked = edited([](PsdLayer& layer) {
+    layer.is_mask_enabled = true;
+    std::ranges::fill(layer.mask.pixels, std::uint8_t(0));
+  });
+  EXPECT_EQ(alpha(masked), 0);
+  EXPECT_TRUE(masked.messages.empty()) << to_string(masked.messages);
+  const ReadLayers hidden = edited([](PsdLayer& layer) {
+    layer.is_hidden = true;
+    std::ranges::fill(layer.pixels.pixels, std::uint8_t(7));
+  });
+  EXPECT_EQ(hidden.pixels[2].pixels, written.pixels[2].pixels);
+  EXPECT_NE(to_string(hidden.messages).find("\"L02-000 far\" is hidden"), std::string::npos);
+  const std::string named =
+      to_string(edited([](PsdLayer& layer) { layer.blend = "mul ", layer.is_clipped = true; }).messages);
+  EXPECT_NE(named.find("its blend mode \"mul \", its clipping to the layer below is left out"),
+            std::string::npos)
+      << named;
 }
 
 TEST(LayeredPicture, TheMaskIsWhiteWhereTheSurfaceIsSeen) {
