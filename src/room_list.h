@@ -44,7 +44,7 @@ class House;
   ROOM(view_dependent_objects)                                                             \
   ROOM(plan_drawing)
 
-/// In each room's namespace: adds what the room brings to the registries.
+/// Declares each room's function, in its namespace, that adds its contributions to the registries.
 #define PARVIS_DECLARE_ROOM(name) \
   namespace parvis::name {        \
   void furnish(House& house);     \

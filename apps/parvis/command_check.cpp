@@ -20,7 +20,7 @@ struct CheckArguments {
   bool wants_reference = false, wants_schema = false, wants_triangles = false, wants_json = false;
 };
 
-/// What --scenario and --tour can name.
+/// Prints the names that --scenario and --tour accept.
 void print_states(const scene::LiveScene& live) {
   for (const scene::Node* node : live.scenarios())
     fmt::print("scenario {}{}{}\n", node->text("name"), node->gives("title") ? ": " : "",
@@ -29,7 +29,7 @@ void print_states(const scene::LiveScene& live) {
     if (node.schema->type == "tour") fmt::print("tour {}\n", node.text("name"));
 }
 
-/// What the triangles show, kind by kind.
+/// Prints the number of triangles of each kind of thing.
 void print_triangles(const scene::Scene& scene) {
   for (const scene::TriangleKind& kind : scene::triangle_kinds(scene))
     fmt::print("triangles of {}: {}{}\n", kind.name, kind.stored,
@@ -40,7 +40,7 @@ void print_triangles(const scene::Scene& scene) {
                vegetation::scene_plants(scene).size());
 }
 
-/// What a scenario can change of a scene; models count as such, not by their content.
+/// Hash of all that a scenario can change of a scene; models count as such, not by their content.
 std::uint64_t state_of(const scene::Scene& scene) {
   ContentHash hash;
   for (const scene::Object& object : scene.objects) {
@@ -73,7 +73,7 @@ Status check_scenarios(house::Play& play) {
   return play.live().choose(play.scene, begins);
 }
 
-/// Of each model file once, in the order of the scene's objects.
+/// The account of each model file once, in the order of the scene's objects.
 std::vector<const scene::FileAccount*> accounts_of(const scene::Scene& scene) {
   std::vector<const scene::FileAccount*> accounts;
   std::set<const scene::FileAccount*> known;

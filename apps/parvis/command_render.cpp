@@ -47,7 +47,7 @@ Result<int> frames_of(const RenderArguments& arguments, const std::filesystem::p
   return frames;
 }
 
-/// What the script says, and what was changed since.
+/// Adds the script's nodes, and the changes since.
 void add(ContentHash& hash, const scene::Nodes& nodes) {
   for (const scene::Node& node : nodes) {
     hash.add_text(node.schema->type);
@@ -159,7 +159,7 @@ Result<std::vector<glm::ivec2>> probed_pixels(const RenderArguments& arguments, 
   return pixels;
 }
 
-/// What --probe asks for, of the picture just drawn.
+/// Prints the values of the picture just drawn that --probe asks for.
 Status print_probes(const house::Stage& stage, const RenderArguments& arguments, int width, int height) {
   const Result<std::vector<glm::ivec2>> pixels = probed_pixels(arguments, width, height);
   if (!pixels) return pixels.errors();

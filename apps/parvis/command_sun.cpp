@@ -48,7 +48,7 @@ light::PlaceAndTime read_place(const SunArguments& arguments, const scene::Scene
   return place;
 }
 
-/// From --from to --to.
+/// The period from --from to --to.
 Result<light::SunPeriod> read_period(const SunArguments& arguments, const scene::Scene& scene) {
   const light::DayLight& day = scene.data<light::DayLight>();
   light::SunPeriod period{.place = read_place(arguments, scene), .day_step = arguments.every};
@@ -106,7 +106,7 @@ scene::Scene as_it_stands(const house::Play& play) {
   return scene;
 }
 
-/// What is judged, as the command line says it.
+/// Name of the ground that is judged, as the command line says it.
 std::string judged_ground(const SunArguments& arguments) {
   if (arguments.ground.empty()) return arguments.outline ? "open ground in the outline" : "open ground";
   return fmt::format("ground \"{}\"{}", fmt::join(arguments.ground, "\", \""),
@@ -127,7 +127,7 @@ void print_rule(const SunArguments& arguments, const light::SunStudy& study, con
                               : ": BRE 209 is NOT kept (it asks for half of it)");
 }
 
-/// As a clock shows them.
+/// The hours as a clock shows them.
 std::string clock_time(double hours) {
   const int minutes = int(std::lround(60.0 * hours) + 24 * 60) % (24 * 60);
   return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);

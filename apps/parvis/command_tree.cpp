@@ -35,7 +35,7 @@
 namespace parvis {
 namespace {
 
-/// Beside what a command writes: what it has done until that is written.
+/// The steps that a command has done, kept beside its output until that is written.
 KeptParts checkpoint_of(const std::filesystem::path& output) {
   return KeptParts(house::file_beside(output, ".steps"));
 }
@@ -95,7 +95,7 @@ void add_choice(CLI::App& command, const char* option, Value& value,
       ->check(CLI::IsMember(names, CLI::ignore_case));
 }
 
-/// What is measured of a tree, a row each, without what is measured of volumes alone where it is of a model.
+/// The measures of a tree, a row each; where it is a model, those of volumes are left out.
 std::string measure_rows(const trees::TreeMeasures& m) {
   std::string rows =
       fmt::format("height {:.2f} m\ncrown base {:.2f} m\ncrown width {:.2f} m\ncrown volume {:.1f} m3\n",
@@ -224,7 +224,7 @@ Status texture(const TextureArguments& arguments) {
   return Done{};
 }
 
-/// What the thesis's packing would save; with codes, the tree by vector quantisation.
+/// Prints how much the thesis's packing would save; with codes, the tree by vector quantisation.
 Status pack(const PackArguments& arguments) {
   Result<trees::BillboardTree> tree = trees::read_tree(arguments.file);
   if (!tree) return tree.errors();

@@ -37,7 +37,7 @@ struct PlaceArguments {
   }
 };
 
-/// What `--scan` of a stage says.
+/// Help of a stage's option `--scan`.
 inline constexpr const char* scan_help =
     "A scan of the place, in any format that scenes read, instead of a proposed model; what photographs "
     "contradict each other about at its borders is cut off";

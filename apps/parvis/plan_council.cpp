@@ -77,7 +77,7 @@ Result<std::pair<light::SunPeriod, std::string>> period_of(const scene::Scene& s
   return std::pair(period, fmt::format("{} {} {}", number, months[std::size_t(month - 1)], date->first));
 }
 
-/// About what differs, with room for the shadows.
+/// The rectangle about all that differs, with room for the shadows.
 glm::dvec4 studied_area(glm::dvec2 middle, glm::dvec2 half) {
   const glm::dvec2 reach = half + glm::max(glm::dvec2(6.0), 0.3 * half);
   return {middle - reach, middle + reach};

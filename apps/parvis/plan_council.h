@@ -11,7 +11,7 @@
 
 namespace parvis {
 
-/// What is asked of it.
+/// Inputs and options of the sheet.
 struct CouncilOptions {
   std::filesystem::path file;
   std::string before;              ///< the design that is compared with

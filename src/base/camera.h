@@ -29,8 +29,8 @@ struct ParallelView {
 struct Camera {
   glm::mat4 world_from_camera{1.0f};  ///< rigid
   float vertical_fov = 0.8f;          ///< radians, of a frustum that is symmetric about the axis
-  /// Off-axis frustum, as a display wall and an eye position define it. Where it is set, `vertical_fov` and
-  /// the aspect ratio of the image are ignored.
+  /// The off-axis frustum, as a display wall and an eye position define it. Where it is set, `vertical_fov`
+  /// and the aspect ratio of the image are ignored.
   std::optional<FrustumTangents> off_axis = std::nullopt;
   /// Where it is set, all rays go along the axis; the fields of view are ignored.
   std::optional<ParallelView> parallel = std::nullopt;

@@ -5,7 +5,7 @@
 
 namespace parvis {
 
-/// What is left of a convex polygon where `distance(point)` is not negative (Sutherland and Hodgman 1974:
+/// The part of a convex polygon in which `distance(point)` is not negative (Sutherland and Hodgman 1974:
 /// Reentrant polygon clipping). `distance` is linear over the polygon; `mix(a, b, share)` makes the points
 /// between two others.
 template <class Point, class Distance>

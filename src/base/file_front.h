@@ -9,7 +9,7 @@
 
 namespace parvis {
 
-/// Up to `count` bytes from the beginning of a regular file. Errors are those of `read_file`.
+/// The first `count` bytes of a regular file, fewer where it is shorter. Errors are those of `read_file`.
 Result<std::string> read_front(const std::filesystem::path& file, std::size_t count);
 
 }  // namespace parvis

@@ -10,7 +10,7 @@
 
 namespace parvis {
 
-/// What a file is to hold.
+/// A file's path and future content.
 struct FileContent {
   std::filesystem::path file;
   std::string bytes;

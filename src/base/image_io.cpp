@@ -24,7 +24,7 @@ std::span<const std::uint8_t> bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-/// In the worker: decodes `bytes` into `output`, without another copy of the pixels.
+/// Runs in the worker: decodes `bytes` into `output`, without another copy of the pixels.
 template <class T>
 Status decode_into(std::string_view bytes, const std::string& name, IsolatedOutput& output) {
   const PixelsFor<T> pixels_for = [&](int width, int height, int channels) -> Result<T*> {

@@ -50,7 +50,7 @@ ModuleName module_name(std::string_view name) {
   return letters;
 }
 
-/// What a worker sends is not trusted: the name becomes that of a file.
+/// A worker's message is not trusted: its name becomes that of a file.
 bool is_module_name(const ModuleName& name) {
   const auto end = std::ranges::find(name, '\0');
   return end != name.begin() && end != name.end() &&
@@ -158,10 +158,10 @@ bool isolates_inner_work = true;
 int status_of_worker = -1;                            ///< where the worker writes its outcome
 std::chrono::steady_clock::time_point end_of_worker;  ///< when its caller ends it
 
-/// Of a thread that measures what isolation costs.
+/// Counts open requests of a thread to work without isolation, which measures its cost.
 thread_local int without_isolation = 0;
 
-/// Of a thread that tests what becomes of other work, null elsewhere.
+/// Replaces the work of a thread in tests; null elsewhere.
 thread_local IsolatedWork other_work = nullptr;
 thread_local double max_seconds_of_other_work = 0.0;
 
@@ -170,8 +170,8 @@ std::chrono::steady_clock::time_point deadline_after(double seconds) {
          std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(seconds));
 }
 
-/// Of inner work in a process of its own: half of what its worker has left, so that work which hangs does not
-/// take its worker with it.
+/// Time limit of inner work in a process of its own: half of what its worker has left, so that work which
+/// hangs does not take its worker with it.
 double seconds_of_inner_work(double limit_s) {
   const std::chrono::duration<double> left = end_of_worker - std::chrono::steady_clock::now();
   return std::min(limit_s, std::max(0.0, left.count() / 2.0));
@@ -252,7 +252,8 @@ Descriptor forked_spare(int server_socket) {
   _exit(0);
 }
 
-/// In memory that the program shares with its workers, once it is asked for before they are forked.
+/// The count stands in memory that the program shares with its workers, if it is asked for before they are
+/// forked.
 std::atomic<std::uint64_t>& worker_count() {
   static std::atomic<std::uint64_t>& count = []() -> std::atomic<std::uint64_t>& {
     static std::atomic<std::uint64_t> own{0};  // where no memory can be shared
@@ -354,7 +355,7 @@ struct Attempt {
 
 using Input = std::array<std::string_view, 2>;
 
-/// In this process.
+/// Runs the work in this process.
 Attempt run_here(IsolatedWork work, const Input& input) {
   Attempt attempt;
   attempt.memory_bytes = memory_left();
@@ -429,7 +430,7 @@ Attempt run_with_modules(IsolatedWork work, const Input& input, const IsolationL
   }
 }
 
-/// What the caller gets of it.
+/// Turns an attempt into the caller's bytes or error.
 Result<IsolatedBytes> result_of(Attempt attempt, const std::string& subject, bool writes) {
   const std::string_view worker = writes ? "writer" : "reader";
   if (attempt.end == End::not_started)

@@ -23,9 +23,9 @@
 
 namespace parvis {
 
-/// What a worker may use.
+/// Limits of a worker's memory, time and files.
 struct IsolationLimits {
-  /// Beyond what the program holds; less where the budget (memory_budget.h) has less left.
+  /// Memory beyond that of the program, bytes; less where the budget (memory_budget.h) has less left.
   std::uint64_t memory_bytes = std::uint64_t{8} << 30;
   double seconds = 120.0;                            ///< by the wall clock
   std::vector<std::filesystem::path> readable = {};  ///< folders and files that may be opened for reading

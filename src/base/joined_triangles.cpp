@@ -11,7 +11,8 @@ namespace parvis {
 namespace {
 
 constexpr double same_place = 1e-6;  // of the mesh's size: vertices nearer than this are one
-/// Of the greatest coordinate: so are those nearer than a few of the steps that numbers have there.
+/// The tolerance as a fraction of the greatest coordinate: places touch, too, that are nearer than a few of
+/// the steps that numbers have there.
 constexpr double few_steps = 4.0 * std::numeric_limits<float>::epsilon();
 constexpr double tolerances_per_cell = 8.0;
 constexpr double min_area = 1e-12;  // of the size squared
@@ -61,7 +62,7 @@ double tolerance_of(const Bounds& bounds) {
   return std::max(same_place * double(size), few_steps * double(std::max({far.x, far.y, far.z})));
 }
 
-/// Of each vertex.
+/// The place of each vertex: the index of the first vertex that it touches.
 std::vector<std::uint32_t> places_of(const Mesh& mesh, const Bounds& bounds, double tolerance) {
   std::vector<std::uint32_t> all;
   all.reserve(mesh.positions.size());
@@ -108,7 +109,7 @@ void join(JoinedTriangles& joined) {
   }
 }
 
-/// As its corners run, from the first place on.
+/// The triangle's places in the order of its corners, from the lowest on.
 Triangle rotated_to_min(const Triangle& t, const std::vector<std::uint32_t>& places) {
   Triangle at{places[t[0]], places[t[1]], places[t[2]]};
   std::rotate(at.begin(), std::min_element(at.begin(), at.end()), at.end());
@@ -139,7 +140,7 @@ Faces faces_of(const Mesh& mesh, const std::vector<std::uint32_t>& places) {
   return faces;
 }
 
-/// What hangs together, and where an odd number meets.
+/// Connected faces, and edges at which an odd number of them meets.
 struct Joints {
   std::vector<std::uint32_t> first;  ///< of each face, the first that it hangs together with
   std::vector<std::uint32_t> open;   ///< faces at an edge of an odd number

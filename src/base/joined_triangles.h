@@ -18,8 +18,8 @@ struct JoinedTriangles {
   std::vector<std::uint32_t> places;  ///< for each vertex a number that is equal for vertices at one place
   /// Vertices of the mesh's triangles, without those that have no area.
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// For each triangle the neighbour across each of its three edges; `no_triangle` at an open edge and where
-  /// more than two triangles share it.
+  /// Neighbours of each triangle across its three edges; `no_triangle` at an open edge and where more than
+  /// two triangles share it.
   std::vector<std::array<std::uint32_t, 3>> neighbours;
   std::size_t open_edges = 0;  ///< rims, and edges of more than two triangles
 };

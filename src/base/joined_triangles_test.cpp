@@ -33,8 +33,8 @@ TEST(JoinedTriangles, TouchWhereCornersAreOneButForRounding) {
   }
 }
 
-/// As far out as numbers have steps of a millionth of its size, and where cells counted from the origin would
-/// have no numbers.
+/// The boxes lie as far out as numbers have steps of a millionth of its size, and where cells counted from
+/// the origin would have no numbers.
 TEST(JoinedTriangles, TouchFarFromTheOrigin) {
   for (const float far : {3.0f, 3e5f, 3e15f}) {
     const float size = 0.005f * far;

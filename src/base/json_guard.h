@@ -16,7 +16,7 @@ inline constexpr int max_json_depth = 200;
 /// To be asked before parsing; whether the text is JSON at all is for the parser to say.
 Status check_json_depth(std::string_view text, const std::string& subject);
 
-/// What a JSON library's exception says, without its own name and number for it.
+/// The message of a JSON library's exception, without its own name and number for it.
 std::string json_reason(std::string_view what);
 
 }  // namespace parvis

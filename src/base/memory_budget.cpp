@@ -14,8 +14,8 @@ constexpr std::uint64_t small_bytes = std::uint64_t{1} << 20;  // not worth a lo
 
 std::uint64_t page_bytes() { return std::uint64_t(sysconf(_SC_PAGESIZE)); }
 
-/// What the control groups of containers allow: the second version's file, then the first one's. Nothing
-/// where there are none, or no limit is set ("max").
+/// The limit that the control groups of containers set: the second version's file, then the first one's.
+/// Nothing where there are none, or no limit is set ("max").
 std::optional<std::uint64_t> group_limit() {
   constexpr std::array files{"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"};
   for (const char* file : files)

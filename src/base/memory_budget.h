@@ -24,9 +24,9 @@ std::uint64_t memory_in_use();
 /// The budget without what is in use; 0 where it is spent.
 std::uint64_t memory_left();
 
-/// To be asked before `bytes` are allocated; none stands for more than 64 bits can say. An error if there is
-/// not so much left: it begins with `what` ("a picture of 9 x 9 pixels"), and says what to do. Less than a
-/// megabyte is never an error.
+/// Checks the budget before `bytes` are allocated; none stands for more than 64 bits can say. It is an error
+/// if there is not so much left: the message begins with `what` ("a picture of 9 x 9 pixels"), and says what
+/// to do. Less than a megabyte is never an error.
 Status check_memory(std::optional<std::uint64_t> bytes, std::string_view what);
 
 }  // namespace parvis

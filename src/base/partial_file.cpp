@@ -54,7 +54,7 @@ int list(const std::string& path) {
 /// Set when the program ends by a signal: from then on nobody makes files that would be left.
 std::atomic<bool> is_ending = false;
 
-/// To be asked before anything is taken off the list.
+/// Waits where the program is ending; called before anything is taken off the list.
 void wait_for_the_end() {
   while (is_ending) pause();
 }
@@ -104,8 +104,8 @@ struct FolderRecord {
   char name[1];
 };
 
-/// Without the library's functions for folders: they allocate, which a signal handler must not. False where
-/// something is left in it.
+/// Removes a folder without the library's functions, which allocate; a signal handler must not. Returns false
+/// where something is left in it.
 bool remove_folder_in_signal(const char* path) {
   alignas(FolderRecord) static std::array<char, 16384> records;
   const int folder = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
@@ -120,7 +120,7 @@ bool remove_folder_in_signal(const char* path) {
   return rmdir(path) == 0 || errno == ENOENT;
 }
 
-/// What is listed; false where something of it is left.
+/// Removes all listed files and folders; false where one of them is left.
 bool remove_listed() {
   bool is_gone = true;
   for (const Slot& slot : slots)

@@ -45,7 +45,7 @@ class PartialFile {
 /// folders inside it).
 class PartialFolder {
  public:
-  /// Inside `folder`, which must exist. Errors: it cannot be written to.
+  /// Creates the partial folder inside `folder`, which must exist. Errors: it cannot be written to.
   static Result<PartialFolder> create(const std::filesystem::path& folder);
   PartialFolder(PartialFolder&& other) noexcept;
   PartialFolder& operator=(PartialFolder&&) = delete;
@@ -63,9 +63,9 @@ class PartialFolder {
   int lock_;  ///< descriptor of the folder while it is worked on; -1: none
 };
 
-/// From now on SIGINT, SIGTERM and SIGHUP remove all partial files and folders, say so, and end the program
-/// with status 1. Commands that finish or resume their work in another way may handle SIGINT and SIGTERM
-/// themselves.
+/// Installs handlers: SIGINT, SIGTERM and SIGHUP remove all partial files and folders, say so, and end the
+/// program with status 1. Commands that finish or resume their work in another way may handle SIGINT and
+/// SIGTERM themselves.
 void remove_partial_files_on_signals();
 
 /// Removes all partial files and folders, says `message` on the standard error and ends the program with

@@ -22,7 +22,7 @@ std::size_t count_of(const fs::path& folder) {
   return std::size_t(std::distance(fs::directory_iterator(folder), {}));
 }
 
-/// What a child process that writes a file and a folder, and is then ended by `number`, leaves; its status.
+/// Ends a child process that writes a file and a folder by the signal `number`; returns its status.
 int ended_by(int number, const fs::path& folder) {
   const pid_t child = fork();
   if (child == 0) {

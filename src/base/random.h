@@ -19,11 +19,11 @@ class Random {
     return (mixed >> turn) | (mixed << ((32 - turn) & 31));
   }
 
-  /// In [0, 1).
+  /// Uniform number in [0, 1).
   float uniform() { return float(next() >> 8) * 0x1p-24f; }
-  /// In [low, high).
+  /// Uniform number in [low, high).
   float uniform(float low, float high) { return low + (high - low) * uniform(); }
-  /// In 0 .. count - 1; `count` > 0.
+  /// Uniform integer in 0 .. count - 1; `count` > 0.
   int index(int count) { return int((std::uint64_t(next()) * std::uint64_t(count)) >> 32); }
   bool chance(float probability) { return uniform() < probability; }
 

@@ -19,7 +19,7 @@ struct FileLocation {
   int column = 0;
 };
 
-/// What was wrong, where, what was expected and what to do, in one sentence or two.
+/// A message of one sentence or two: what was wrong, where, what was expected and what to do.
 struct Error {
   std::string message;
   FileLocation where;
@@ -71,7 +71,7 @@ class [[nodiscard]] Result {
   std::variant<T, Errors> state_;
 };
 
-/// For functions that succeed without a value: `return Done{};`
+/// The value of functions that succeed without one: `return Done{};`
 struct Done {};
 using Status = Result<Done>;
 

@@ -41,7 +41,7 @@ scene::Scene street(bool is_bounced) {
   return scene;
 }
 
-/// What is red in the mirror beyond grey, summed over its pixels: by a method, and by rays.
+/// The red in the mirror beyond grey, summed over its pixels: by a method, and by rays.
 struct Shown {
   double by_method, by_rays;
 };

@@ -22,7 +22,7 @@ namespace {
 
 const formats::Readers& readers() { return all_rooms().get<formats::Readers>(); }
 
-/// What the files of each kind begin with.
+/// The first bytes of the files of each kind.
 const std::map<std::string, std::string> fronts{{".3ds", "MM"},
                                                 {".3mf", "PK\x03\x04"},
                                                 {".ac", "AC3D"},

@@ -16,12 +16,12 @@ using Furnish = void (*)(House&);
 /// A house of all rooms, and of `more` rooms, which come last in the list.
 House make_house(std::span<const Furnish> more = {});
 
-/// What all rooms bring; made when first asked for, then always the same.
+/// The registries, filled by all rooms; made when first asked for, then always the same.
 const House& all_rooms();
 
 /// The types of nodes that scripts may use.
 inline const scene::NodeRegistry& node_registry() { return all_rooms().get<scene::NodeRegistry>(); }
-/// What rooms draw by themselves. Every scene that is to be drawn or traced is furnished with it first.
+/// The drawables that rooms register. Every scene that is to be drawn or traced is furnished with it first.
 inline const render::Drawables& drawables() { return all_rooms().get<render::Drawables>(); }
 /// The methods of reflection.
 inline const methods::Registry& method_registry() { return all_rooms().get<methods::Registry>(); }

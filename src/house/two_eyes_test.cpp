@@ -22,7 +22,8 @@ EyeView eye_at(glm::vec3 position) {
   return {camera, 160, 120};
 }
 
-/// What each eye sees after some frames of all of them; a method that is not named reflects the sky alone.
+/// The picture of each eye after some frames of all of them; a method that is not named reflects the sky
+/// alone.
 std::vector<ImageF> seen_by(const std::vector<EyeView>& eyes, const std::string& method) {
   scene::Scene scene = reference_maps::tower_square();
   scene::add(scene,

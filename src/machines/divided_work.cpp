@@ -108,7 +108,7 @@ class Results {
   std::mutex mutex_;
 };
 
-/// What one process receives next, of any kind and size.
+/// The next message that a process receives, of any kind and size.
 struct Message {
   int from = 0, tag = 0;
   std::string bytes;

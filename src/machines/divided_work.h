@@ -17,7 +17,7 @@ namespace parvis::machines {
 /// Numbers of tasks.
 using Tasks = std::vector<std::uint32_t>;
 
-/// What is done with each task.
+/// The two functions that a task goes through.
 struct DividedWork {
   /// Runs a task and returns its result as bytes. Called in the order of the list.
   std::function<Result<std::string>(std::uint32_t task)> run;

@@ -10,7 +10,7 @@
 
 namespace parvis::machines {
 
-/// What processes do together, where it is not MPI that does it: tests have threads in place of processes.
+/// Collective operations where it is not MPI that does them: tests have threads in place of processes.
 class Collectives {
  public:
   virtual ~Collectives() = default;

@@ -48,7 +48,7 @@ class ThreadProcesses final : public Collectives {
   mutable const std::string* of_first_ = nullptr;
 };
 
-/// What `work` gives in each of two processes.
+/// Results of `work` in each of two processes.
 template <class Work>
 auto in_two_processes(Work&& work) {
   const ThreadProcesses processes;

@@ -23,7 +23,7 @@ class ImguiContext {
   void draw();
 
   const Fonts& fonts() const { return fonts_; }
-  /// Of all sizes, in ImGui's units.
+  /// The factor of all sizes that are in ImGui's units.
   float scale() const { return scale_; }
 
  private:

@@ -96,7 +96,7 @@ std::optional<planner::Pointer> Input::pointer() const {
   return pointer;
 }
 
-/// Of the picture's width, which the panel leaves.
+/// The place as a fraction of the picture's width, which the panel leaves.
 float Input::share_of_picture(double x) const {
   int width = 0, height = 0;
   glfwGetWindowSize(window_, &width, &height);

@@ -19,8 +19,8 @@ struct Controls {
   glm::vec3 move{0.0f};  ///< forward, left, up: -1..1
   glm::vec2 turn{0.0f};  ///< radians: to the left, upward
   float zoom = 0.0f;     ///< steps of the wheel: changes speed, distance when following, scale of a plan
-  /// In a plan: how far it is drawn to the right and up, and what the wheel keeps in place, from the middle;
-  /// both in heights of the picture.
+  /// Movement in a plan: how far it is drawn to the right and up, and the point that the wheel keeps in
+  /// place, from the middle; both in heights of the picture.
   glm::vec2 pan{0.0f}, zoom_at{0.0f};
   bool hurries = false;
 };
@@ -53,7 +53,7 @@ class Navigation {
   Camera camera() const;
 
  private:
-  /// On the way to a camera.
+  /// The flight to a camera.
   struct Flight {
     glm::vec3 from, to;
     float heading_from, heading_to, pitch_from, pitch_to, fov_from;

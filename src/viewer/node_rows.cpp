@@ -104,7 +104,7 @@ std::string why_fixed(const scene::LiveScene& live, const Node& node, const Attr
   return "settled when the scene is loaded";
 }
 
-/// What the script, a message or a scenario gives, else the default.
+/// The value that the script, a message or a scenario gives, else the default.
 std::string text_of(const Node& node, const AttributeSchema& schema) {
   std::vector<std::string> given;
   for (const scene::NodeAttribute& attribute : node.attributes)

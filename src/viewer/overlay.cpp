@@ -9,7 +9,7 @@
 
 namespace parvis::viewer {
 
-/// From the world to the picture.
+/// Draws points of the world in the picture.
 struct Overlay::Pen {
   ImDrawList* list;
   ImVec2 size;

@@ -14,8 +14,8 @@ namespace parvis::viewer {
 /// Draws lines and numbers with Dear ImGui, behind its windows.
 class Overlay {
  public:
-  /// Between ImguiContext's begin_frame and draw. The picture fills `size` from the window's upper left, in
-  /// ImGui's units, which are `scale` times those of a small screen.
+  /// Draws the overlay; called between ImguiContext's begin_frame and draw. The picture fills `size` from the
+  /// window's upper left, in ImGui's units, which are `scale` times those of a small screen.
   void draw(Planning& planning, ImVec2 size, float scale);
 
  private:

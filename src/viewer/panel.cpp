@@ -271,7 +271,7 @@ void Panel::draw_keys() const {
   ImGui::End();
 }
 
-/// At the foot of the picture, the latest lowest.
+/// Draws the notices at the foot of the picture, the latest lowest.
 void Panel::draw_notices(const Visit& visit) const {
   const float margin = 14.0f * imgui_.scale();
   const float max_width = ImGui::GetIO().DisplaySize.x - width() - 2.0f * margin;

@@ -20,10 +20,10 @@ class Panel {
   bool is_open = false;
   bool shows_keys = false;
 
-  /// Of the window, in ImGui's units; 0 where the panel is closed.
+  /// Width of the panel in ImGui's units; 0 where the panel is closed.
   float width() const;
-  /// Between ImguiContext's begin_frame and draw: the panel if it is open, the keys if they are asked for,
-  /// and what the visitor is to be told.
+  /// Draws the panel if it is open, the keys if they are asked for, and notices to the visitor; called
+  /// between ImguiContext's begin_frame and draw.
   void draw(Visit& visit, const FrameStatistics& statistics);
 
   /// Rows of a page of its own before all others, "Design"; empty: there is none.
@@ -34,7 +34,7 @@ class Panel {
   void choose(const scene::LiveScene& live, const scene::Node& node);
   const scene::Node* chosen() const { return nodes_.chosen(); }
 
-  /// Of the last frame.
+  /// Places of the last frame's rows.
   const Places& places() const { return rows_.places(); }
 
  private:

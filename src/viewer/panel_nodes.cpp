@@ -11,7 +11,7 @@ namespace {
 
 constexpr float share_of_tree = 0.45f;  // of the page's height; attributes have the rest
 
-/// By which a node's row is found.
+/// The name by which a node's row is found.
 std::string row_name(const NodeRow& row) { return "node " + (row.name.empty() ? row.kind : row.name); }
 
 /// Draws what changes the value; true when a person has changed it.

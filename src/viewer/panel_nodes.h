@@ -18,7 +18,7 @@ class PanelNodes {
   const scene::Node* chosen() const { return chosen_; }
 
  private:
-  /// What an attribute did not take.
+  /// A value that an attribute refused.
   struct Refusal {
     const scene::AttributeSchema* attribute = nullptr;
     std::string message;

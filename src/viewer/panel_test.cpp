@@ -68,7 +68,7 @@ class PanelTest : public SquareTest {
     ImGui::Render();
     visit_->step({}, frame_s);
   }
-  /// What a frame of the panel says.
+  /// The text of a frame of the panel.
   std::string text() {
     imgui_->begin_frame();
     ImGui::LogToClipboard();

@@ -42,12 +42,13 @@ class Planning {
   /// Compares the open design with the next one of the scene, and with the one behind it the next time, and
   /// at last with none.
   void compare_with_next();
-  /// What the open design changes against the one that it is compared with; empty: it is compared with none.
+  /// Differences of the open design from the one that it is compared with; empty: it is compared with none.
   std::vector<design::Difference> differences() const;
   /// The design that it is compared with; empty: none.
   const std::string& compared() const { return compared_; }
 
-  /// In colours, with a slider, side by side, and so on; with the next design where none is compared.
+  /// Changes to the next way of comparison: in colours, with a slider, side by side, and so on; chooses the
+  /// next design where none is compared.
   void next_compared_view();
   /// Are two pictures shown?
   bool compares_pictures() const;

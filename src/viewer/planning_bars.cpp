@@ -35,7 +35,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// What all objects share; none: they differ.
+/// The value that all objects have in common; none: they differ.
 template <class Get>
 auto shared(const std::vector<design::PlacedObject>& all, Get get)
     -> std::optional<decltype(get(all.front()))> {

@@ -16,8 +16,8 @@ class PlanningBars {
   /// Both outlive it. `pictures`: where pictures of the catalogue are kept; empty: nowhere.
   PlanningBars(const ImguiContext& imgui, Planning& planning, std::filesystem::path pictures);
 
-  /// Between ImguiContext's begin_frame and draw: all bars and the overlay about a picture of this width, in
-  /// ImGui's units. Nothing where the tool is put away.
+  /// Draws all bars and the overlay about a picture of this width, in ImGui's units; called between
+  /// ImguiContext's begin_frame and draw. Draws nothing where the tool is put away.
   void draw(float picture_width);
   /// Rows of what is selected, within a window of the panel.
   void draw_inspector(PanelRows& rows);

@@ -179,7 +179,8 @@ class Frames {
     stage.pass_times().end_pass("panel");
   }
 
-  /// For measurements: frames of the visit, those apart in which shaders are made and the resolution found.
+  /// Prints the rate for measurements: frames of the visit, those apart in which shaders are made and the
+  /// resolution found.
   void print_rate(int frames, double seconds) {
     if (frames < 1) return;
     fmt::print("{} frames, once settled {:.2f} per second; the last one drew {:.0f} % of its pixels\n",

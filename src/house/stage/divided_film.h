@@ -13,7 +13,7 @@
 
 namespace parvis::house {
 
-/// What a film shows.
+/// Everything that determines a film.
 struct FilmJob {
   std::filesystem::path output;  ///< .mp4
   int width = 0, height = 0, frames_per_second = 24, frames = 0;

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr int film_width = 64, film_height = 36;
 
-/// What a program prints, without the last line's end.
+/// Output of a program, without the last line's end.
 std::string output_of(const std::string& command) {
   std::string text;
   std::FILE* pipe = popen(command.c_str(), "r");

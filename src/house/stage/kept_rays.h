@@ -11,7 +11,7 @@
 
 namespace parvis::house {
 
-/// To be used from one thread at a time.
+/// A ray tracer that is kept between pictures of a scene; used from one thread at a time.
 class KeptRays {
  public:
   /// A hierarchy of a scene as it stands now.

@@ -12,7 +12,7 @@ namespace parvis::house {
 namespace {
 namespace fs = std::filesystem;
 
-/// What a name is in the name of a file; letters beyond ASCII stay as they are.
+/// A name as it stands in the name of a file; letters beyond ASCII stay as they are.
 std::string file_part(std::string name) {
   for (char& c : name) {
     const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||

@@ -11,8 +11,8 @@
 
 namespace parvis::house {
 
-/// What to photograph and what to write; a path that is empty is not written. Where there are several
-/// cameras, "_NAME" goes before the extension of pictures (series_files). No two may be the same file.
+/// Cameras and outputs of photographs; a path that is empty is not written. Where there are several cameras,
+/// "_NAME" goes before the extension of pictures (series_files). No two may be the same file.
 struct PhotographJob {
   std::vector<scene::NamedCamera> cameras;  ///< as they stand; their `follows` is not looked at
   int width = 1280, height = 960;

@@ -94,8 +94,8 @@ bool have_ground(const std::vector<scene::Lane>& lanes, const Parts& parts) {
   return lanes.empty();
 }
 
-/// Of the objects' middles, half of which lie on either side of it along each axis: one that is far off does
-/// not move it.
+/// Median of the objects' middles along each axis: one that is far off does not move
+/// it.
 glm::vec2 middle_of(std::vector<glm::vec2> middles) {
   glm::vec2 middle(0.0f);
   for (int axis = 0; axis < 2; ++axis) {

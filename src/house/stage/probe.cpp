@@ -6,7 +6,7 @@
 namespace parvis::house {
 namespace {
 
-/// Of an object of the scene, or of what a room draws by itself.
+/// Name of an object of the scene, or of a drawable of a room.
 std::string name_of(const scene::Scene& scene, int object) {
   if (std::size_t(object) < scene.objects.size()) return scene.objects[std::size_t(object)].name;
   std::string name;

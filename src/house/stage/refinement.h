@@ -30,7 +30,7 @@ class Refinement {
   /// The picture so far, linear RGB: the mean of `samples()` samples of each pixel; nothing where it has no
   /// more of them than when it was taken last. From another thread than the tracer's.
   std::optional<ImageF> take();
-  /// Of each pixel, in the picture that was taken last or could be now.
+  /// Samples of each pixel in the picture that was taken last or could be now.
   int samples() const { return samples_; }
 
  private:

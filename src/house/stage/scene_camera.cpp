@@ -9,7 +9,7 @@
 namespace parvis::house {
 namespace {
 
-/// From a little above the south-west, so far that all of the scene is seen.
+/// A camera a little above the south-west, so far that all of the scene is seen.
 Camera view_of_all(const Bounds& bounds) {
   Camera camera;
   const float distance_m = std::max(1.3f * bounds.radius(), 2.0f);
@@ -19,7 +19,7 @@ Camera view_of_all(const Bounds& bounds) {
   return camera;
 }
 
-/// Around all that stands still.
+/// The bounds of the static geometry.
 Bounds fixed_bounds(const scene::Scene& scene) {
   Bounds sum;
   for (const scene::Object& object : scene.objects)

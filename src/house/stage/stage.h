@@ -96,7 +96,7 @@ class Stage {
   /// of the passes; on a software renderer, whose passes tell nothing, by `frame_ms`: what the last frame
   /// took by the clock, all of it. For windows: the result depends on the machine.
   void follow_clock(double frame_ms);
-  /// Of the last frame's pixels as displayed, the share that was drawn.
+  /// The fraction of the last frame's displayed pixels that was drawn.
   double drawn_share() const;
 
   /// See Play::camera.
@@ -108,7 +108,7 @@ class Stage {
     draw(camera, {width, height}, scale_.drawn_size(width, height));
   }
 
-  /// In place of `draw`, while a person holds things: the frame without the objects and things that `shown`
+  /// Replaces `draw` while a person holds things: draws the frame without the objects and things that `shown`
   /// leaves out (a flag for each, as View::shown_objects), and over it those of `held`, a scene of their own,
   /// in full resolution where the eye rests. While view, size, scene and `shown` stay as they are, the frame
   /// below is drawn once: then a thing can be moved about at many frames per second. `held` as
@@ -116,7 +116,7 @@ class Stage {
   void draw_held(const Camera& camera, int width, int height, const std::vector<std::uint8_t>& shown,
                  const scene::Scene& held);
 
-  /// In place of `draw`, where neither view nor scene has changed since the last frame: draws it once more in
+  /// Replaces `draw` where neither view nor scene has changed since the last frame: draws it once more in
   /// full resolution if it was not, then refines it by the ray tracer, on other threads, and displays that
   /// picture from as many samples per pixel on as drawn ones have. `draw` ends it.
   void refine(const Camera& camera, int width, int height);

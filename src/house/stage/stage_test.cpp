@@ -175,7 +175,8 @@ TEST_F(StageTest, AHeldRateDrawsFewerPixelsUntilNothingMoves) {
   EXPECT_LT((*stage)->drawn_share(), 0.5);
 }
 
-/// Toward the picture of `parvis reference`, from which the drawn one differs; any new frame ends it.
+/// The picture converges to that of `parvis reference`, from which the drawn one differs; any new frame ends
+/// it.
 TEST_F(StageTest, AtRestThePictureBecomesTheReferencePicture) {
   constexpr int width = 96, height = 72, rounds = 600;
   scene::Scene scene = street();
@@ -214,7 +215,8 @@ TEST_F(StageTest, AtRestThePictureBecomesTheReferencePicture) {
   EXPECT_LT(at_rest, 0.25 * by_drawing);
 }
 
-/// What is built for the first picture at rest follows what has moved, appeared and changed its shape since.
+/// The ray tracer built for the first picture at rest follows whatever has moved, appeared and changed its
+/// shape since.
 TEST(KeptRaysTest, FollowTheScene) {
   scene::Scene scene;
   const auto board = model_of(quad({0, 0, 0}, {0, 2, 0}, {0, 2, 3}, {0, 0, 3}), matt({0.7f, 0.2f, 0.1f}));

@@ -40,7 +40,7 @@ using Mask = GroundRaster<unsigned char>;
 /// The cells of `grid` whose centres lie inside the rings (even-odd rule: inner rings are holes).
 std::vector<glm::ivec2> cells_inside(const GroundGrid& grid, std::span<const std::vector<glm::vec3>> rings);
 
-/// For each cell, the distance in metres to the centre of the nearest cell whose mask equals `target`; very
+/// Distance in metres from each cell to the centre of the nearest cell whose mask equals `target`; very
 /// large if there is none. Exact (Felzenszwalb and Huttenlocher 2012: Distance transforms of sampled
 /// functions).
 GroundRaster<float> distances_to(const Mask& mask, unsigned char target);

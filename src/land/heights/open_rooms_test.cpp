@@ -18,7 +18,7 @@ Mesh floor_at(float z, float side_m = 4.0f) {
   return quad({0, 0, z}, {side_m, 0, z}, {side_m, 4, z}, {0, 4, z});
 }
 
-/// Of land with sides of 40 m, in plan, after rooms with floors, and ceilings, at these heights have been
+/// Area in plan of land with sides of 40 m after rooms with floors, and ceilings, at these heights have been
 /// opened.
 double land_m2(const std::vector<float>& floors, const char* land = "TINRelief",
                const std::vector<float>& ceilings = {}, const char* floor = "FloorSurface") {

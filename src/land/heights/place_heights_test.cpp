@@ -97,7 +97,8 @@ TEST(PlaceHeights, RoadsLieOnTheGround) {
   EXPECT_NEAR(place.at({50.0f, 0.0f}), 11.0f, 0.1f);
 }
 
-/// As one in the coordinates of its map beside one about the origin: cells of metres would fill the memory.
+/// A model in the coordinates of its map stands beside one about the origin: cells of metres would fill the
+/// memory.
 TEST(PlaceHeights, AModelThousandsOfKilometresAwayTakesNoMemoryForTheWayThere) {
   Scene scene;
   for (const float away_m : {0.0f, 4e6f})

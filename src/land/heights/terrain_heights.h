@@ -10,7 +10,7 @@ namespace parvis::scene {
 
 class TerrainHeights {
  public:
-  /// Of the parts of a georeferenced model that are ground (terrain, roads, land use), the highest.
+  /// Heights of the highest part of a georeferenced model that is ground (terrain, roads, land use).
   explicit TerrainHeights(const Model& terrain);
 
   /// Metres in the terrain's coordinates; nothing beyond it and in its holes.

@@ -9,7 +9,7 @@
 
 namespace parvis::scene {
 
-/// What the ground below a road has to do with it.
+/// Relation of a road to the ground below it.
 enum class Bed : std::uint8_t {
   none,  ///< nothing: the road runs high above the ground or deep below it
   cut,   ///< the road lies on something else (a bridge, a ramp), through which the ground must not rise

@@ -32,7 +32,7 @@ struct Sample {
   bool is_covered = false;  ///< far above lies a ceiling, a roof or the ground over a tunnel
 };
 
-/// What kind of ground a part is.
+/// The kind of ground that a part is.
 enum class GroundKind { none, terrain, other, deck, cover };
 
 GroundKind ground_of(const std::string& object, Terrain terrain) {

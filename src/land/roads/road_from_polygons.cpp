@@ -67,7 +67,7 @@ struct GroundPlane {
   }
 };
 
-/// What is known of the ground: which cells are road, and how high.
+/// The ground: which cells are road, and how high they lie.
 struct Ground {
   Mask mask;
   GroundRaster<float> heights_m;  ///< of the cells that polygons cover
@@ -210,7 +210,7 @@ class RoadEnds {
   std::map<std::array<float, 3>, int> count_;
 };
 
-/// Without those whose ends are too narrow to turn a car in, as long as such ends come up.
+/// Removes roads whose ends are too narrow to turn a car in, as long as such ends come up.
 std::vector<Road> without_narrow_dead_ends(std::vector<Road> roads) {
   const auto is_trap = [](const Road& road, const RoadEnds& ends) {
     return ends.joined(road) < 2 && 2.0f * half_width_m(road) < turning_circle_m;

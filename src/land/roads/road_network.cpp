@@ -167,7 +167,7 @@ class Meetings {
   }
 
  private:
-  /// From north to south; from east to west the finder has looked.
+  /// Compares the boxes from north to south; the finder has compared them from east to west.
   static bool comes_near(const PlanBox& a, const PlanBox& b, float reach_m) {
     return a.min.y - reach_m <= b.max.y && b.min.y - reach_m <= a.max.y;
   }

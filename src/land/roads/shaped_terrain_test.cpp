@@ -65,7 +65,7 @@ std::optional<float> height_of(const Mesh& mesh, glm::vec2 p) {
   return highest_m;
 }
 
-/// In plan, without triangles that face down.
+/// Area in plan, without triangles that face down.
 double plan_m2(const Mesh& mesh) {
   double sum = 0.0;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -75,7 +75,7 @@ double plan_m2(const Mesh& mesh) {
   return sum;
 }
 
-/// Along the middle of the hillside, at height 0.
+/// A street along the middle of the hillside, at height 0.
 std::vector<Road> street(float west_m = -200.0f, float east_m = 200.0f, float z = 0.0f) {
   Road road;
   road.path = {{west_m, 0, z}, {east_m, 0, z}};

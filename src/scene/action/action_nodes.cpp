@@ -62,7 +62,7 @@ AttributeSchema event(const char* of, const char* help, AttributeType source,
   return std::move(schema).or_one_of(std::move(choices)).spelled({lower}).repeatable();
 }
 
-/// Of what runs in time.
+/// The attribute `running` of nodes that run in time.
 AttributeSchema running(const char* fallback) {
   return flag("running", "it runs when the scene begins").by_default(fallback).live();
 }

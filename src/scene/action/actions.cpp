@@ -15,7 +15,7 @@ bool is_running(const Node& node) { return node.flag("running"); }
 
 double length_of(const Node& node) { return node.children.back().number("time_s"); }
 
-/// Of a path or tour: over how long it repeats.
+/// Period after which a path or tour repeats, seconds; 0: it does not.
 double period_of(const Node& node) { return node.flag("loop") ? length_of(node) : 0.0; }
 
 /// The place, view and lens of a camera without roll.

@@ -37,7 +37,7 @@ class Actions final : public Process {
   std::optional<Camera> camera(const scene::Scene& scene) const;
   /// Starts the tour and gives its length in seconds. Errors name the tours that there are.
   Result<double> start_tour(const std::string& name);
-  /// From now on the visitor looks where they like: no tour runs, no message holds the view.
+  /// Lets the visitor look where they like from now on: no tour runs, no message holds the view.
   void release_view();
 
  private:

@@ -11,7 +11,7 @@ class Clock {
   explicit Clock(double period_s = 0.0) : period_s_(period_s) {}
 
   double time_s() const { return time_s_; }
-  /// In `ahead_s` from now.
+  /// The time in `ahead_s` from now, seconds.
   double time_s(double ahead_s) const {
     const double time = time_s_ + ahead_s;
     return period_s_ > 0.0 ? std::fmod(time, period_s_) : time;

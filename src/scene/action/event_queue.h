@@ -45,8 +45,8 @@ class EventQueue {
 
   /// How many messages wait.
   std::size_t size() const { return waiting_.size(); }
-  /// What was cut, lost or postponed since the last call; each circle is reported once, storms once in the
-  /// queue's life.
+  /// Warnings of events cut, lost or postponed since the last call; each circle is reported once, storms once
+  /// in the queue's life.
   Errors take_warnings() { return std::exchange(warnings_, {}); }
 
  private:

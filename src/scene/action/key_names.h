@@ -6,7 +6,7 @@
 
 namespace parvis::action {
 
-/// What `keys` may name: letters, digits, named keys, mouse1.. and button1.. of a game controller.
+/// The names that `keys` accepts: letters, digits, named keys, mouse1.. and button1.. of a game controller.
 const std::vector<std::string>& key_names();
 
 }  // namespace parvis::action

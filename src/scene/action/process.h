@@ -20,7 +20,7 @@ struct Observer {
   std::optional<glm::vec3> eye = {};  ///< in the world; nothing where nobody looks
 };
 
-/// What the processes of a scene share. It stays where it is in memory and outlives them.
+/// State shared by the processes of a scene. It stays where it is in memory and outlives them.
 struct SharedByProcesses {
   scene::LiveScene live;  ///< the script's nodes: set their attributes, and what they make follows
   EventQueue queue;       ///< messages on their way
@@ -36,7 +36,7 @@ class Process {
 
   /// One word, by which a panel calls it.
   virtual std::string name() const = 0;
-  /// What it does now, in a few words: "30 vehicles". Where it says something, a window can halt the process.
+  /// Its activity in a few words: "30 vehicles". Where it says something, a window can halt the process.
   virtual std::string status() const { return ""; }
 
   /// Once, before the scene is drawn: objects that it moves are added, or marked as dynamic, here.
@@ -58,7 +58,7 @@ class Process {
   /// itself.
   virtual bool receive(scene::Scene&, const scene::Node&, const scene::Message&) { return false; }
 
-  /// What went wrong since the last call.
+  /// Returns and clears the warnings since the last call.
   Errors take_warnings() { return std::exchange(warnings_, {}); }
 
  protected:
@@ -76,7 +76,7 @@ class Processes {
   using Make = std::function<std::unique_ptr<Process>()>;
   /// Processes step, look and present in the order in which their kinds were added.
   void add(Make make) { makers_.push_back(std::move(make)); }
-  /// In the order added.
+  /// The makers in the order in which they were added.
   const std::vector<Make>& makers() const { return makers_; }
 
  private:

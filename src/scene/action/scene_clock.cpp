@@ -34,8 +34,8 @@ void SceneClock::step(scene::Scene& scene, const Observer& observer) {
   for (Delivery delivery; shared_->queue.next(delivery);) deliver(scene, delivery);
 }
 
-/// What nodes have made follows their attributes before processes that read it show the moment, and after
-/// those that set attributes have done so.
+/// Products of nodes follow their attributes before processes that read it show the moment, and after those
+/// that set attributes have done so.
 void SceneClock::present(scene::Scene& scene, double ahead_s) {
   warn(shared_->live.refresh(scene));
   for (Entry& entry : entries_) {

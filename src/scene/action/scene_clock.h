@@ -47,7 +47,7 @@ class SceneClock {
   }
   /// All processes, in the order in which they step.
   std::vector<Process*> processes() const;
-  /// By its name; null where there is none.
+  /// The process of this name; null where there is none.
   Process* find(const std::string& name) const;
 
   /// A paused process stands still; all else goes on.
@@ -56,7 +56,7 @@ class SceneClock {
   /// Moves one process on, also where it is paused.
   void step_alone(const scene::Scene& scene, Process& process, double seconds);
 
-  /// What went wrong since the last call, in any process.
+  /// Returns and clears the warnings of all processes since the last call.
   Errors take_warnings();
 
  private:

@@ -6,7 +6,7 @@
 namespace parvis::scene {
 namespace {
 
-/// Between which keys a time lies. Beyond the keys, both are the nearest.
+/// The two keys between which a time lies. Beyond the keys, both are the nearest.
 struct KeyInterval {
   std::size_t before, after;
   float step_s;  ///< from one to the other

@@ -18,7 +18,7 @@ struct BouncedSettings {
   float spacing_m = 8.0f;  ///< of the places where it is kept
   int rays = 64;           ///< from each of them
 
-  /// All of it.
+  /// Adds all members.
   void hash(ContentHash& hash) const { hash.add(is_on), hash.add(spacing_m), hash.add(rays); }
 };
 

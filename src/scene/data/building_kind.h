@@ -38,7 +38,7 @@ struct BuildingKind {
   auto operator<=>(const BuildingKind&) const = default;
 };
 
-/// Of a year of construction.
+/// The epoch of a year of construction.
 BuildingEpoch epoch_of(int year);
 
 /// "office since-2000 plaster white 4-storeys"; empty where all is unknown.
@@ -47,7 +47,7 @@ std::string words_of(const BuildingKind& kind);
 /// count for nothing.
 BuildingKind kind_of_words(std::string_view name);
 
-/// What `own` does not know is that of `whole`: of a part of a building.
+/// Completes the kind of a building's part: members that `own` does not know are those of `whole`.
 BuildingKind completed(BuildingKind own, const BuildingKind& whole);
 
 }  // namespace parvis::scene

@@ -10,7 +10,7 @@ namespace {
 constexpr int cells_per_side = 24;
 constexpr float min_openness = 0.08f;
 
-/// Over the upper hemisphere, in rings.
+/// Directions over the upper hemisphere, in rings.
 const std::array<glm::vec3, 13>& directions() {
   static const std::array<glm::vec3, 13> all = [] {
     std::array<glm::vec3, 13> result{};

@@ -9,7 +9,7 @@
 
 namespace parvis::scene {
 
-/// What a weight of 1 adds to each vertex. Either list may be empty: nothing.
+/// The vectors that a weight of 1 adds to each vertex. Either list may be empty: nothing.
 struct MorphTarget {
   std::vector<glm::vec3> positions, normals;
 };

@@ -21,7 +21,7 @@ std::string sentence_of(const AccountLine& line) {
                      line.reason.empty() ? "" : ": ", line.reason, names_of(line));
 }
 
-/// Without the bytes of a character that the end cuts.
+/// The first bytes of a name, without those of a character that the end cuts.
 std::string shortened(std::string_view name) {
   if (name.size() <= FileAccount::max_name_bytes) return std::string(name);
   std::size_t end = FileAccount::max_name_bytes;

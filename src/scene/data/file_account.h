@@ -11,7 +11,7 @@
 
 namespace parvis::scene {
 
-/// What became of a thing that a file holds.
+/// The fate of a thing that a file holds.
 enum class Fate : std::uint8_t {
   used,
   changed,   ///< shown in another way than the file says
@@ -44,7 +44,7 @@ class FileAccount {
   const std::string& format() const { return format_; }             ///< as users call it
   const std::vector<AccountLine>& lines() const { return lines_; }  ///< in the order of their first things
   const std::string& file() const { return file_; }                 ///< its path, as messages name it
-  /// To be called by the registry alone.
+  /// Sets the file's name; called by the registry alone.
   void set_file(std::string file) { file_ = std::move(file); }
 
   /// Counts things that the model shows as they are; 0 of a kind makes no line.

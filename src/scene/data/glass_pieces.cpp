@@ -16,7 +16,7 @@ bool is_same_glass(const Material& a, const Material& b) {
   return a.ior == b.ior && a.absorption_per_m == b.absorption_per_m && a.is_mirror_like == b.is_mirror_like;
 }
 
-/// All of a model's glass of one kind, and where its triangles come from.
+/// A model's glass of one kind, and where its triangles come from.
 struct Glass {
   int material;
   Mesh mesh;
@@ -65,7 +65,7 @@ bool contains(const Bounds& outer, const Bounds& inner) {
          glm::all(glm::lessThanEqual(inner.max, outer.max));
 }
 
-/// By the solid angles under which a point sees the triangles of a closed mesh (van Oosterom and Strackee
+/// Sums the solid angles under which a point sees the triangles of a closed mesh (van Oosterom and Strackee
 /// 1983): they add up to the whole sphere, or to nothing.
 bool encloses(const Mesh& mesh, glm::vec3 point) {
   double half_angle = 0.0;

@@ -115,7 +115,7 @@ TEST(GlassPieces, AreMadePartsOfTheirOwn) {
   EXPECT_EQ(model.parts.size(), 3u) << "what is divided stays as it is";
 }
 
-/// In a time that grows as their number does: a chandelier's.
+/// A chandelier's pieces are found in a time that grows as their number does.
 TEST(GlassPieces, ThousandsOfAPartAreEachTheirOwn) {
   constexpr int drops = 3000;
   Mesh mesh;

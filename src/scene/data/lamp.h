@@ -36,7 +36,7 @@ struct Lamp {
   float radius_m = 0.0f;              ///< what lies so near to the middle of the lamp shines: its glass
   LampSwitch burns = LampSwitch::dusk;
 
-  /// All of it.
+  /// Adds all members.
   void hash(ContentHash& hash) const {
     for (const std::string* text : {&of, &part, &shows}) hash.add_text(*text);
     for (const glm::vec3 value : {position, axis, intensity}) hash.add(value);

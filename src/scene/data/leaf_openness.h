@@ -31,9 +31,9 @@ struct LeafOpenness {
   };
   std::unordered_map<const Model*, std::shared_ptr<const OfModel>> models;  ///< copies of a scene share them
 
-  /// Of a part of a model; empty: it hides nothing of the sky from itself.
+  /// Openness of each vertex of a part of a model, 0 to 1; empty: it hides nothing of the sky from itself.
   std::span<const float> of(const Model& model, std::size_t part) const;
-  /// What of each vertex is seen from outside the crown at most; empty: it is hidden nowhere.
+  /// The fraction of each vertex that is seen from outside the crown at most; empty: it is hidden nowhere.
   std::span<const float> max_seen(const Model& model, std::size_t part) const;
   /// Which it is follows from the models.
   void hash(ContentHash& hash) const { hash.add(models.size()); }

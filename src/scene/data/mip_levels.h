@@ -13,8 +13,8 @@ using ByteTable = std::array<float, 256>;
 /// The table of sRGB-encoded or of linear bytes.
 const ByteTable& values_of_bytes(bool is_srgb);
 
-/// For each texture of a model: if it is the colour of a cutout material, the alpha (1 to 255) from which on
-/// its texels are visible; else 0.
+/// Thresholds, one per texture of a model: where it is the colour of a cutout material, the alpha (1 to 255)
+/// from which on its texels are visible; else 0.
 std::vector<int> visible_alphas(const Model& model);
 
 /// All mipmap levels of a texture, box-filtered over 2 x 2 texels in linear light. For cutout textures, alpha

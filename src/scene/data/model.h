@@ -22,7 +22,7 @@ namespace parvis::scene {
 
 inline constexpr int no_index = -1;
 
-/// What a texture shows beyond its edges, along one of its axes.
+/// The way in which a texture continues beyond its edges, along one of its axes.
 enum class Wrap : std::uint8_t { repeat, mirror, clamp };
 
 /// A texture coordinate where it lies within the texture, 0 to 1.

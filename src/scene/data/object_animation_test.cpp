@@ -147,7 +147,7 @@ TEST(ObjectAnimation, HalvesOfDifferentMaterialBendAlike) {
     EXPECT_EQ(scene.objects[0].mesh(p).positions.size(), 4u) << "their deformation counts all four";
 }
 
-/// Of all parts in the world, as they are deformed now.
+/// Bounds of all parts in the world, as they are deformed now.
 Bounds bounds_now(const Scene& scene) {
   const Object& object = scene.objects[0];
   Bounds all;

@@ -26,7 +26,7 @@ Mesh extracted(const Mesh& mesh, const std::vector<std::uint32_t>& triangles,
   return result;
 }
 
-/// Of a mesh that deforms all vertices stay: its deformation counts them.
+/// A part of a mesh that deforms keeps all vertices: its deformation counts them.
 Mesh with_all_vertices(const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
   Mesh result{mesh.positions, mesh.normals, mesh.uvs, {}, mesh.second_uvs, mesh.colours};
   for (const std::uint32_t triangle : triangles)

@@ -29,7 +29,7 @@ struct SunShadows {
 
   std::optional<Spot> spot;                     ///< none: the sun is infinitely far away
   std::vector<bool> casts_none, receives_none;  ///< by the index of an object; those beyond do
-  /// Of items of rooms (Scene::items) those that these nodes have made cast; empty: all do.
+  /// The nodes whose items (Scene::items) cast shadows; empty: all items do.
   std::vector<NodeRange> caster_nodes = {};
 
   /// Does an object cast shadows?
@@ -42,7 +42,7 @@ struct SunShadows {
   }
   /// Does it receive those of others?
   bool receives(std::size_t object) const { return object >= receives_none.size() || !receives_none[object]; }
-  /// All of it.
+  /// Adds all members.
   void hash(ContentHash& hash) const {
     if (spot) hash.add(glm::vec4(spot->position, spot->half_angle));
     for (const std::vector<bool>* flags : {&casts_none, &receives_none})
@@ -57,7 +57,7 @@ struct SunLight : Sun {
 
   bool operator==(const SunLight&) const = default;
 };
-/// Of a scene.
+/// The sun of a scene and its spot.
 inline SunLight sun_light(const Scene& scene) { return {scene.sun, scene.data<SunShadows>().spot}; }
 
 }  // namespace parvis::scene

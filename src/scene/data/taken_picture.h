@@ -15,7 +15,7 @@ struct TakenPicture {
   int width = 0, height = 0;
 };
 
-/// Of its pinhole, in pixels, the same along both axes.
+/// Focal length of its pinhole in pixels, the same along both axes.
 double focal_length_px(const TakenPicture& picture);
 
 /// A point of the scene, with the pictures that see it.

@@ -32,7 +32,7 @@ inline Mesh crown(int leaves) {
   return mesh;
 }
 
-/// Of both sides alike.
+/// A leaf's material, the same on both sides.
 inline Material leaf_material(glm::vec3 colour, float translucency) {
   Material leaf;
   leaf.base_colour = colour, leaf.translucency = translucency;

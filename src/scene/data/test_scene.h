@@ -55,8 +55,8 @@ inline Mesh sphere(glm::vec3 centre, float radius, int rings = 32) {
   return mesh;
 }
 
-/// About the z axis: a tube of radius `tube` round a circle of radius `ring`; as finely made as a sphere of
-/// so many rings.
+/// A torus about the z axis: a tube of radius `tube` round a circle of radius `ring`; as finely made as a
+/// sphere of so many rings.
 inline Mesh torus(float ring, float tube, int rings = 32) {
   Mesh mesh = sphere(glm::vec3(0.0f), 1.0f, rings);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -82,7 +82,7 @@ inline std::shared_ptr<Model> model_of(Mesh mesh, const Material& material) {
   return model;
 }
 
-/// Of the parts of this name.
+/// Area of the parts of this name.
 inline double area_m2(const Model& model, const std::string& name) {
   double sum = 0.0;
   for (const Part& part : model.parts)

@@ -41,8 +41,8 @@ struct TracedPoint {
   float occlusion = 1.0f;  ///< 1: open to the sky
   float openness = 1.0f;   ///< share of the sky, and of all that stands around, that other leaves leave open
   glm::vec3 emission{0.0f};  ///< radiance toward `TracedHit::to_viewer`
-  /// Of a kind that is recorded: the share of `emission` that is left where something that its photographs do
-  /// not show casts a shadow on it. 1: it receives none.
+  /// Attenuation of the `emission` of a recorded kind where something that its photographs do not show casts
+  /// a shadow on it. 1: it receives none.
   float kept_in_shadow = 1.0f;
 };
 

@@ -32,7 +32,7 @@ struct VertexIrradiance {
   static constexpr std::string_view name = "data.vertex_irradiance";
   static constexpr DataRole role = DataRole::static_content;
 
-  /// By the index of an object; null, and beyond the end: the object is lit like all others.
+  /// Light at the vertices of each object; null, and beyond the end: the object is lit like all others.
   std::vector<std::shared_ptr<const LitVertices>> objects;
 
   /// The light of an object; null if it has none of its own.

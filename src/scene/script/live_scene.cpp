@@ -305,8 +305,8 @@ NodeRange LiveScene::range_of(const Node& node) const {
   return range;
 }
 
-/// What stands once is written in place; objects, cameras and items are built aside, and then replace those
-/// that the node had made.
+/// A node that stands once is written in place; objects, cameras and items are built aside, and then replace
+/// those that the node had made.
 Errors LiveScene::build_again(Scene& scene, const Node& node) {
   const NodeRange range = range_of(node);
   SceneBuilder builder(*script_.registry, std::move(script_.models));
@@ -335,7 +335,7 @@ Errors LiveScene::build_again(Scene& scene, const Node& node) {
   return {};
 }
 
-/// What is kept by model, or was found out about all objects, follows new ones.
+/// Updates data that are kept by model or found out about all objects when there are new ones.
 void LiveScene::follow_objects(Scene& scene, std::size_t objects_before) {
   if (scene.objects.size() == objects_before) return;
   find_leaf_openness(scene);

@@ -29,7 +29,7 @@ class LiveScene {
  public:
   LiveScene() = default;  ///< without nodes
   explicit LiveScene(Script script);
-  /// For a scene without a script; `unique_node` creates its nodes. The registry must outlive it.
+  /// Creates a scene without a script; `unique_node` creates its nodes. The registry must outlive it.
   explicit LiveScene(const NodeRegistry& registry) { script_.registry = &registry; }
 
   const NodeRegistry& registry() const { return *script_.registry; }  ///< of the nodes' types

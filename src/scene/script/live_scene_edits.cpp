@@ -17,7 +17,7 @@ void visit_tree(NodeType& node, const Visit& visit) {
   for (auto& child : node.children) visit_tree(child, visit);
 }
 
-/// By which `LiveScene::find` knows a node: its own name, those of its type if that is unique.
+/// The names by which `LiveScene::find` knows a node: its own name, those of its type if that is unique.
 std::vector<std::string> names_of(const Node& node) {
   std::vector<std::string> names;
   if (node.schema->is_unique)
@@ -95,7 +95,7 @@ Status LiveScene::check_names(const Nodes& nodes) const {
   return Done{};
 }
 
-/// What may stand where, and come and go while the scene runs.
+/// Checks that nodes may stand in this place, and may come and go while the scene runs.
 Status LiveScene::check_place(const Nodes& nodes, const Node* parent) const {
   const std::string& parent_type = parent ? parent->schema->type : top_level;
   for (const Node& node : nodes) {
@@ -145,7 +145,7 @@ void LiveScene::know(Node& node, const Node* parent) {
   for (Node& child : node.children) know(child, &node);
 }
 
-/// Of all inside it, too. Its objects are those of its neighbours to come.
+/// Forgets the node and all nodes inside it. Its objects are those of its neighbours to come.
 void LiveScene::forget(const Node& node) {
   visit_tree(node, [&](const Node& inside) {
     std::erase_if(by_name_, [&](const auto& named) { return named.second == &inside; });

@@ -68,7 +68,7 @@ std::string written(const NodeAttribute& attribute);
 /// type.
 const Node* find_node(const Nodes& nodes, const std::string& name);
 
-/// What the node and its children say, without names and places: equal texts build equal models.
+/// The text of the node and its children, without names and places: equal texts build equal models.
 std::string signature(const Node& node);
 
 }  // namespace parvis::scene

@@ -60,16 +60,16 @@ class NodeRegistry {
   void allow(const std::string& child, const std::string& parent);
   /// Adds a step; steps run in the order in which they were added, once per loaded scene.
   void add_finish_step(FinishStep step) { finish_steps_.push_back(std::move(step)); }
-  /// In the order in which they run.
+  /// The finish steps in the order in which they run.
   const std::vector<FinishStep>& finish_steps() const { return finish_steps_; }
   /// Adds a step that runs whenever a node of the loaded scene has been rebuilt: builder.scene holds only the
   /// objects and cameras that the node has just made.
   void add_rebuild_step(FinishStep step) { rebuild_steps_.push_back(std::move(step)); }
-  /// In the order in which they run.
+  /// The rebuild steps in the order in which they run.
   const std::vector<FinishStep>& rebuild_steps() const { return rebuild_steps_; }
   /// Adds a step that runs whenever a running scene has other nodes, or more objects, than before.
   void add_follow_step(FollowStep step) { follow_steps_.push_back(std::move(step)); }
-  /// In the order in which they run.
+  /// The follow steps in the order in which they run.
   const std::vector<FollowStep>& follow_steps() const { return follow_steps_; }
 
   const NodeType* find(const std::string& type) const;  ///< null if there is no such type

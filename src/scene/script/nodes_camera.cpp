@@ -14,7 +14,7 @@ using namespace attribute;
 
 /// The width over height at which fov_deg is the horizontal field of view.
 constexpr float nominal_aspect = 16.0f / 9.0f;
-/// From a hill one sees so far: as far as terrain_plane goes on around a place.
+/// The range of sight from a hill: as far as terrain_plane goes on around a place.
 constexpr float sight_m = 50'000.0f;
 
 NodeSchema camera_schema() {
@@ -77,14 +77,14 @@ glm::mat4 world_from_camera(const Node& node) {
                      glm::vec3(1.0f, 0.0f, 0.0f));
 }
 
-/// Without the scale that groups may have: a camera stays rigid.
+/// The matrix without the scale that groups may have: a camera stays rigid.
 glm::mat4 rigid(const glm::mat4& matrix) {
   glm::mat4 result = matrix;
   for (int axis = 0; axis < 3; ++axis) result[axis] = glm::normalize(matrix[axis]);
   return result;
 }
 
-/// Of a camera that follows: where it stands and looks from the object. Identity: it looks at the object.
+/// Reads where a camera that follows stands and looks from the object. Identity: it looks at the object.
 void follow(const Node& node, SceneBuilder& builder, NamedCamera& camera) {
   camera.offset_m = node.vec3("offset");
   camera.camera.world_from_camera = glm::mat4(1.0f);

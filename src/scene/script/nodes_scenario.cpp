@@ -47,7 +47,7 @@ NodeSchema override_schema() {
           .takes_attributes_of = "of"};
 }
 
-/// What a scene has once would be there in all scenarios.
+/// A node that a scene has once would be there in all scenarios.
 void refuse_what_stands_once(const Nodes& nodes, const std::string& scenario, SceneBuilder& builder) {
   for (const Node& node : nodes) {
     const std::string& type = node.schema->type;

@@ -13,8 +13,8 @@ namespace parvis::scene {
 /// True for names that end in .pfb, in any case.
 bool is_performer_file(const std::string& name);
 
-/// What is read in its place: the file of the same name that ends in .glb, .gltf, .iv or .wrl, the first that
-/// there is. The error says how to get one.
+/// The file that is read in its place: the one of the same name that ends in .glb, .gltf, .iv or .wrl, the
+/// first that there is. The error says how to get one.
 Result<std::filesystem::path> in_place_of_performer_file(const std::string& name, const Roots& roots,
                                                          const FileLocation& where);
 

@@ -71,8 +71,8 @@ class SceneBuilder {
   void add_all(std::vector<T> items) {
     add_made_by(node_number_, std::move(items));
   }
-  /// As `add_all`, of items that belong to the object at this index of the scene: recorded with the node that
-  /// made the object, they are replaced with it. For finish and rebuild steps.
+  /// Adds items as `add_all` does, but items that belong to the object at this index of the scene: recorded
+  /// with the node that made the object, they are replaced with it. For finish and rebuild steps.
   template <SceneItem T>
   void add_all_for(std::size_t object, std::vector<T> items) {
     add_made_by(maker_number(object), std::move(items));

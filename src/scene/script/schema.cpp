@@ -160,7 +160,7 @@ std::string event_pattern(const AttributeSchema& schema) {
 
 namespace {
 
-/// All of a few, or the first and the last of many.
+/// The whole list if it is short, else its first and last names.
 std::string some_of(const std::vector<std::string>& choices) {
   constexpr std::size_t few = 12;
   if (choices.size() <= few) return fmt::format("{}", fmt::join(choices, ", "));

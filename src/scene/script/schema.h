@@ -45,7 +45,7 @@ struct AttributeSchema {
   double minimum = -1e9;
   double maximum = 1e9;
   std::vector<std::string> choices = {};  ///< of a choice, or of an event's sources
-  /// Of an event: number (seconds), integer, choice, or reference to an object; or one of `choices`.
+  /// An event's source: number (seconds), integer, choice, or reference to an object; or one of `choices`.
   AttributeType source = AttributeType::choice;
   std::vector<std::string> refers_to = {};  ///< types of the nodes that a reference may name; empty: any name
   std::vector<std::string> spellings = {};  ///< other names that are understood
@@ -153,7 +153,7 @@ Status check_value(const AttributeSchema& schema, const AttributeValue& value);
 /// The value as a script would spell it: `parse_value` reads it back with seven significant digits.
 std::string written_value(const AttributeSchema& schema, const AttributeValue& value);
 
-/// What the attribute expects, in words: `a number in m from 0 to 10`.
+/// The value that the attribute expects, in words: `a number in m from 0 to 10`.
 std::string expectation(const AttributeSchema& schema);
 
 /// How an event is written: "SECONDS, TARGET, MESSAGE, DELAY".

@@ -99,7 +99,7 @@ class Formatter {
     behind(node.comments_behind_end, depth);
   }
 
-  /// As many to a line as fit; comments end theirs.
+  /// Writes as many attributes to a line as fit; comments end theirs.
   void attributes(const ScriptNode& node, std::size_t depth) {
     const std::size_t inner = depth + 2;
     bool begins_line = false;

@@ -49,7 +49,7 @@ bool NameResolver::is_known(const std::string& name, const AttributeSchema& sche
   return types.empty() || std::ranges::find(types, node->second->schema->type) != types.end();
 }
 
-/// Of nodes of these types, or, where none is named, of everything that has a name.
+/// Names of nodes of these types, or, where none is named, of everything that has a name.
 std::vector<std::string> NameResolver::known_names(const std::vector<std::string>& types) const {
   std::vector<std::string> known;
   for (const auto& [name, node] : nodes_)

@@ -129,7 +129,7 @@ void Parser::children(ScriptNode& parent, int depth) {
     stop(opening, "this '{{' is never closed; add a '}}' after the children of {}", parent.type);
 }
 
-/// After the "(" up to and with the ")".
+/// Reads attributes after the "(" up to and with the ")".
 void Parser::attribute_list(ScriptNode& owner) {
   while (!at_end() && !current_.is(')')) {
     if (!attribute(owner)) return skip_to_end_of_list();
@@ -182,7 +182,7 @@ bool Parser::attribute(ScriptNode& owner) {
   return true;
 }
 
-/// After an error among attributes: to behind the ")", or to where a list of nodes goes on.
+/// Skips after an error among attributes: to behind the ")", or to where a list of nodes goes on.
 void Parser::skip_to_end_of_list() {
   while (!at_end() && !current_.is('{') && !current_.is('}')) {
     if (at_node() && current_.begins_line) return;
@@ -192,7 +192,7 @@ void Parser::skip_to_end_of_list() {
   }
 }
 
-/// After an error among nodes: to the next thing that looks like a node, or to the end of this list.
+/// Skips after an error among nodes: to the next thing that looks like a node, or to the end of this list.
 void Parser::skip_to_next_node(int depth) {
   while (!at_end()) {
     take();

@@ -34,7 +34,7 @@ struct Token {
   bool is(char symbol) const { return kind == TokenKind::symbol && text.front() == symbol; }
 };
 
-/// After this many errors reading stops: more would only repeat them.
+/// The number of errors after which reading stops: more would only repeat them.
 inline constexpr std::size_t max_script_errors = 20;
 
 /// The token as errors quote it: shortened, without control characters.

@@ -21,7 +21,7 @@ struct Jet {
   glm::vec3 foot;
   float height_m;
 
-  /// All of it.
+  /// Adds all members.
   void hash(ContentHash& hash) const {
     hash.add(foot);
     hash.add(height_m);
@@ -34,7 +34,7 @@ struct WaterNeed {
   static constexpr DataRole role = DataRole::settings;
   float metres_of_jets = 0.0f;
 
-  /// All of it.
+  /// Adds all members.
   void hash(ContentHash& hash) const { hash.add(metres_of_jets); }
 };
 
@@ -45,7 +45,7 @@ struct Slab {
   float x;
   int number;
 
-  /// All of it.
+  /// Adds all members.
   void hash(ContentHash& hash) const { hash.add(x), hash.add(number); }
 };
 

@@ -26,7 +26,7 @@ class ScriptTest : public Base {
     EXPECT_TRUE(loaded) << (loaded ? "" : to_string(loaded.errors()));
     return loaded ? std::move(loaded->scene) : Scene();
   }
-  /// What is wrong with a script that cannot be loaded.
+  /// The errors of a script that cannot be loaded.
   std::string errors_of(const std::string& script) const {
     const auto loaded = load(script);
     EXPECT_FALSE(loaded) << script;
