@@ -90,7 +90,8 @@ std::optional<int> leading_number(std::string_view text) {
   return problem == std::errc() ? std::optional(value) : std::nullopt;
 }
 
-/// Of "1911", "1911-05-03", "~1890", "1890s", "before 1900", "C18", "late C19".
+/// The epoch of a year as registers write it: "1911", "1911-05-03", "~1890", "1890s", "before 1900", "C18",
+/// "late C19".
 BuildingEpoch epoch_in(std::string_view text) {
   constexpr int first_year = 1006;  // the Dutch register writes 1005 where it knows no year
   constexpr int last_year = 2100;
@@ -235,7 +236,7 @@ Use use_in_words(std::string_view text) {
   return Use::unknown;
 }
 
-/// Of the code that stands alone or behind its list's number or address: "1120", "31001_2020",
+/// The use of a code that stands alone or behind its list's number or address: "1120", "31001_2020",
 /// ".../codes/1000".
 Use use_in_value(const std::string& text, bool is_class) {
   const std::size_t last = text.find_last_not_of("0123456789");
@@ -288,7 +289,7 @@ constexpr std::array<Colour, 28> colours{
 
 glm::vec3 srgb_of(int hex) { return glm::vec3(hex >> 16, (hex >> 8) & 255, hex & 255) / 255.0f; }
 
-/// Of "fff", "b04030".
+/// The colour of "fff", "b04030".
 std::optional<glm::vec3> rgb_of_hex(std::string_view digits) {
   const std::size_t each = digits.size() == 3 ? 1 : 2;
   if (digits.size() != 3 * each) return std::nullopt;
@@ -327,7 +328,7 @@ struct Shade {
 };
 constexpr std::array<Shade, 3> shades{{{"light", 0.45f}, {"dark", -0.4f}, {"pale", 0.6f}}};
 
-/// What a value says of a colour.
+/// A colour that a value names.
 struct FoundColour {
   WallTint tint;
   glm::vec3 srgb;

@@ -22,10 +22,10 @@ constexpr double smallest_area_m2 = 1e-9;  // below it a ring has no direction
 constexpr double farthest_m = 1e7;         // of a surface from the origin: no place on earth is as wide
 constexpr std::size_t max_warnings_of_a_kind = 20, max_warnings = 200;
 constexpr std::size_t max_named_pictures = 3;  // missing ones; the others are counted
-/// Beside the file, where towns put pictures that the file names without a folder.
+/// Folders beside the file in which towns put pictures that the file names without a folder.
 constexpr std::array<const char*, 2> picture_folders{"appearances", "textures"};
 
-/// What a message says of any object: without figures and names.
+/// The message without figures and names, which is the same for any object.
 std::string kind_of_warning(const std::string& message) {
   std::string kind;
   bool is_name = false;
@@ -75,7 +75,7 @@ float roughness_of(float shininess) {
 
 glm::vec3 linear(glm::vec3 srgb) { return linear_from_srgb(glm::clamp(srgb, 0.0f, 1.0f)); }
 
-/// What the objects of a name say beside it.
+/// The words that stand beside the name of such objects.
 std::string words_for(const std::string& name, const CityObject& object) {
   if (name == "Road" || name == "SolitaryVegetationObject") return object.use;
   return name == "WallSurface" ? words_of(object.kind) : "";

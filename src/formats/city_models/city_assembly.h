@@ -37,8 +37,9 @@ struct CitySurface {
   /// Normals of all points, ring by ring, of a facet of a curved surface; empty: it is flat.
   std::vector<glm::vec3> normals{};
   bool is_of_solid = false;  ///< part of a closed solid: its back is never visible
-  /// What a roof is made of ("metal") that shall keep its own material: stands in the names of its object and
-  /// material ("RoofSurface metal"), so that a node that tiles "RoofSurface" leaves it alone. May be empty.
+  /// The finish of a roof ("metal") that shall keep its own material; it stands in the names of its object
+  /// and material ("RoofSurface metal"), so that a node that tiles "RoofSurface" leaves it alone. May be
+  /// empty.
   std::string finish{};
 };
 
@@ -85,7 +86,7 @@ class CityAssembly {
   Result<Model> finish(std::size_t object_count);
 
  private:
-  /// By name of the surface, object, material, picture, solid, tile.
+  /// A part's key: name of the surface, object, material, picture, solid, tile.
   using PartKey = std::tuple<std::string, std::string, int, int, bool, int, int>;
 
   void add_triangles(const PartKey& key, const CitySurface& surface, const std::vector<glm::dvec3>& points,

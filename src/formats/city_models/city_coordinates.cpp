@@ -10,10 +10,10 @@ namespace {
 
 constexpr double max_longitude_deg = 180.0;
 constexpr double max_region_m = 100'000.0;  // no city is so wide, and floats end at centimetres there
-/// Without a name, degrees are what spans less than a town does and is higher than it is wide.
+/// Coordinates without a named system are degrees if they span less than a town and are higher than wide.
 constexpr double narrow_deg = 0.2, high_building_m = 2.0;
 constexpr double majority = 0.5;  // of their area, that face one way rather than the other
-/// From a map's origin: nearer to it coordinates are about an origin of the file's own, whatever it names.
+/// Distance from a map's origin: nearer coordinates are about an origin of the file's own, whatever it names.
 constexpr double off_origin_m = 1000.0;
 
 /// Whether the coordinates can be degrees in one order of the axes.
@@ -52,7 +52,7 @@ bool means_defined_order(const std::string& system) {
   return system.find("urn:") != std::string::npos || system.find("/def/crs/") != std::string::npos;
 }
 
-/// Of a projected system whose northing stands first by definition.
+/// Decides whether northing stands first in a projected system that defines it so.
 bool has_northing_first(const CoordinateClues& clues, int epsg) {
   if (roofs_contradict(clues, false)) return true;
   if (roofs_contradict(clues, true)) return false;

@@ -14,7 +14,7 @@
 
 namespace parvis::scene {
 
-/// What a file says of its coordinates, and what they are like.
+/// A file's statements about its coordinates, and their properties.
 struct CoordinateClues {
   std::string system;  ///< as the file names it, "urn:ogc:def:crs:EPSG::7415"; may be empty
   glm::dvec3 low{std::numeric_limits<double>::max()};  ///< of the coordinates as they stand in the file
@@ -37,7 +37,7 @@ struct CoordinateClues {
 /// Turns the coordinates of one file into metres.
 class CityCoordinates {
  public:
-  /// Of metres, east first, which stay as they are.
+  /// Coordinates in metres, east first, which stay as they are.
   CityCoordinates() = default;
 
   /// Degrees become metres on the map of their zone (formats/terrain/map_projection.h), on which maps of

@@ -172,7 +172,8 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-/// Of a name of expat, "namespace\nname". Empty for other schemas, the name alone where it has no namespace.
+/// The prefixed form of a name of expat, "namespace\nname". Empty for other schemas, the name alone where it
+/// has no namespace.
 std::string with_prefix(std::string_view name) {
   const std::size_t end = name.find('\n');
   if (end == std::string_view::npos) return std::string(name);

@@ -74,7 +74,7 @@ std::vector<glm::dvec3> triples(const Json& list, const char* what) {
   return points;
 }
 
-/// What a geometry says about each of its surfaces, in lists nested as its boundaries are. Up to version
+/// Semantics and themes of each surface of a geometry, in lists nested as its boundaries are. Up to version
 /// 0.3 semantics were such a list themselves, and up to 0.2 there were no themes.
 struct Attached {
   const Json* semantics;
@@ -276,7 +276,7 @@ class CityJsonReader {
     return kind_of_building(attributes);
   }
 
-  /// With what the building says of which the object is a part.
+  /// The kind of an object, completed by that of the building of which it is a part.
   BuildingKind kind_of(const Json& object) const {
     const std::string whole = text(element(member(object, "parents"), 0));
     const BuildingKind own = own_kind(object);
@@ -374,7 +374,7 @@ class CityJsonReader {
     for (CitySurface& surface : surfaces) surface.semantics.clear();
   }
 
-  /// Of values in lists that are nested as the boundaries are.
+  /// Decides whether values in lists nested as the boundaries hold one value for all surfaces.
   static bool is_one_for_all(const Json& values) {
     std::size_t count = 0;
     const Json* first = nullptr;

@@ -13,9 +13,9 @@ namespace parvis::scene {
 /// vertices of what they left out. An index out of range is left to the reader, which refuses it.
 std::vector<bool> named_vertices(const Json& city, std::size_t vertex_count);
 
-/// Of the file's `vertices`, as they stand in it, those named. Roofs are the surfaces that the file calls so;
-/// of a solid of a building without such surfaces, whose rings run about its outward normals, those that lie
-/// above half its height.
+/// Clues from those of the file's `vertices` that are named, as they stand in it. Roofs are the surfaces that
+/// the file calls so; of a solid of a building without such surfaces, whose rings run about its outward
+/// normals, those that lie above half its height.
 CoordinateClues coordinate_clues(const Json& city, const std::vector<glm::dvec3>& vertices,
                                  const std::vector<bool>& is_named);
 

@@ -12,7 +12,7 @@ constexpr glm::dvec2 in_delft_deg{4.36, 52.01};  // east, north
 constexpr const char* latitude_first_system = "urn:ogc:def:crs:EPSG::4979";
 constexpr const char* longitude_first_system = "urn:ogc:def:crs:OGC:1.3:CRS84";
 
-/// What the surfaces of a test's house are in its file.
+/// The form of the surfaces of a test's house in its file.
 enum class Written { solid, named_surfaces };
 
 /// A house whose plan is an L, open to the north east: 0.0002 x 0.00015 degrees, 6 m high.
@@ -57,8 +57,8 @@ Place read(const Json& city) {
   return {std::move(model), deg, to_string(warnings)};
 }
 
-/// Of the roof, which lies in plan, seen from above: its area less that of triangles that face down, and
-/// whether it lies in the north east of the house.
+/// The roof, which lies in plan, seen from above: its area less that of triangles that face down, and whether
+/// it lies in the north east of the house.
 struct Roof {
   double up_m2 = 0.0;
   bool is_in_north_east = false;

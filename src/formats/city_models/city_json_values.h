@@ -32,7 +32,8 @@ inline std::string text(const Json& value) { return value.is_string() ? value.ge
 /// True for solids, and sets of them.
 inline bool is_solid(const Json& geometry) { return text(member(geometry, "type")).ends_with("Solid"); }
 
-/// Of the surfaces of a geometry: a number per surface in `value`, or up to version 0.3 the kind itself.
+/// The semantics of a geometry's surfaces: a number per surface in `value`, or up to version 0.3 the kind
+/// itself.
 inline std::string semantics_of(const Json& geometry, const Json& value) {
   if (value.is_object()) return text(member(value, "type"));
   if (!value.is_number_unsigned()) return "";

@@ -12,7 +12,7 @@ namespace {
 
 using Corner = std::array<std::int64_t, 3>;
 
-/// In millimetres about `origin`: writers round to as much.
+/// The corner in millimetres about `origin`: writers round to as much.
 Corner corner_of(glm::dvec3 point, glm::dvec3 origin) {
   const glm::dvec3 mm = glm::round((point - origin) * 1000.0);
   return {std::int64_t(mm.x), std::int64_t(mm.y), std::int64_t(mm.z)};

@@ -171,7 +171,7 @@ const std::vector<TVec3d>& points_of(const std::shared_ptr<citygml::LinearRing>&
   return ring ? ring->getVertices() : none;
 }
 
-/// What the coordinates of a file are like.
+/// Collects properties of a file's coordinates.
 class Clues {
  public:
   Clues(const citygml::CityModel& model, const std::string& system) {
@@ -192,7 +192,7 @@ class Clues {
     for (unsigned i = 0; i < object.getChildCityObjectsCount(); ++i) add(object.getChildCityObject(i));
   }
 
-  /// With all its surfaces as one body, where none has a name.
+  /// Adds all surfaces as one body where none has a name.
   void add_whole(const citygml::Geometry& geometry, bool is_roof) {
     rings_.clear(), has_names_ = is_roof;
     add(geometry, is_roof);
@@ -256,7 +256,7 @@ class CityGmlReader {
     return {std::round(0.5 * (low.x + high.x)), std::round(0.5 * (low.y + high.y)), 0.0};
   }
 
-  /// In metres on the map.
+  /// The point in metres on the map.
   glm::dvec3 placed(const glm::dvec3& point, const Placement& placement) const {
     if (!placement.is_template) return coordinates_(point);
     return coordinates_(placement.reference) +
@@ -358,8 +358,8 @@ class CityGmlReader {
     surfaces_.clear();
   }
 
-  /// Without the closing point, which repeats the first. `lies`: where on a picture; null: by the ring's own
-  /// texture coordinates.
+  /// Reads a ring without the closing point, which repeats the first. `lies`: where on a picture; null: by
+  /// the ring's own texture coordinates.
   void read_ring(const citygml::Polygon& polygon, const std::shared_ptr<citygml::LinearRing>& ring,
                  const Placement& placement, const PlanToPicture* lies, CitySurface& surface) const {
     const std::vector<TVec3d>& corners = points_of(ring);

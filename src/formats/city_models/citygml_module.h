@@ -6,7 +6,7 @@
 
 namespace parvis::scene {
 
-/// What libcitygml does for us.
+/// The functions of the module that calls libcitygml.
 struct CityGmlFunctions {
   Result<Model> (*read)(const std::filesystem::path& file, Errors& warnings, std::optional<double> max_detail,
                         std::optional<glm::dvec2>* place_deg, const std::string& map, FileAccount* account);

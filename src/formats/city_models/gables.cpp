@@ -12,7 +12,7 @@ using glm::dvec2, glm::dvec3;
 constexpr double steepest_ridge = 0.35;  // of the roof's own slope; the line of a square hip rises by 0.7
 constexpr double nearest_corner = 0.1;   // of the edge's length, from the top of the gable
 
-/// For each point those that it shares an edge of a face with.
+/// Neighbours of each point: those that it shares an edge of a face with.
 std::vector<std::set<int>> neighbours_of(const StraightSkeleton& skeleton) {
   std::vector<std::set<int>> neighbours(skeleton.points.size());
   for (const std::vector<int>& face : skeleton.faces)

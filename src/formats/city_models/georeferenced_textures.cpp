@@ -105,7 +105,8 @@ std::vector<std::string> world_files_of(const std::string& picture) {
   return names;
 }
 
-/// By the numbers of a world file: the step of a column, of a row, and the middle of the first pixel.
+/// The map given by the numbers of a world file: the step of a column, of a row, and the middle of the first
+/// pixel.
 std::optional<PlanToPicture> placed_by_numbers(const std::vector<double>& n, glm::ivec2 size_px) {
   if (n.size() != 6) return std::nullopt;
   const glm::dmat2 plan_from_pixels(n[0], n[1], n[2], n[3]);

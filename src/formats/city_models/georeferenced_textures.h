@@ -13,7 +13,7 @@
 
 namespace parvis::scene {
 
-/// From a point of the plan, in the file's own coordinates, to a place in a picture: 0..1, v down from the
+/// Maps a point of the plan, in the file's own coordinates, to a place in a picture: 0..1, v down from the
 /// top.
 struct PlanToPicture {
   glm::dmat2 uv_from_plan{0.0};  ///< about `origin`

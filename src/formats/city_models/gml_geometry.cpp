@@ -27,7 +27,7 @@ struct GmlElement {
   std::vector<std::string> numbers;  ///< of a ring, three a point, as the file writes them
 };
 
-/// What the file's positions look like where the parser is.
+/// An open element: the form of the positions where the parser is.
 struct GmlOpen {
   std::string name;
   std::size_t dimensions = 3;
@@ -205,7 +205,7 @@ class GmlGeometry {
     text += "</" + prefix + "posList>";
   }
 
-  /// What is copied is no other element of the same name.
+  /// Erases the identifiers of a copy, which is no other element of the same name.
   static void erase_ids(std::size_t from, std::string& text) {
     for (std::size_t at = text.find(":id=", from); at != std::string::npos; at = text.find(":id=", at)) {
       const std::size_t begin = text.find_last_of(" \t\r\n", at);

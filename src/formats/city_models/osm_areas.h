@@ -61,7 +61,7 @@ class OsmAreas {
   void add(const OsmWay& way, std::vector<OsmArea>& found) const;
   /// `outline`: the role of the ways round it.
   void add(const OsmRelation& relation, const std::string& outline, std::vector<OsmArea>& found) const;
-  /// With the tags of its outer ways.
+  /// Adds the areas of a relation with the tags of its outer ways.
   void add_of_outer_ways(const OsmRelation& relation, const IsWanted& is_wanted,
                          std::vector<OsmArea>& found) const;
   std::vector<std::vector<OsmRing>> footprints_of(const OsmRelation& relation, const std::string& outline,

@@ -80,7 +80,7 @@ class FlatRoofs {
   std::map<std::string, std::vector<std::string>> buildings_;  ///< by reason
 };
 
-/// What all buildings of a map are drawn with.
+/// Data of the map with which all its buildings are drawn.
 struct MapContext {
   const OsmPassages& passages;
   OsmPosts& posts;
@@ -165,7 +165,7 @@ class Building {
     if (high_m > low_m) add("WallSurface", {{{a, low_m}, {b, low_m}, {b, high_m}, {a, high_m}}});
   }
 
-  /// Of one piece each, round where they turn by little.
+  /// Draws walls of one piece each, round where they turn by little.
   void draw_whole_walls() {
     if (!(eaves_m_ > base_m_)) return;
     std::vector<OsmFacet> walls, facets;

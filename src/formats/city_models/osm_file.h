@@ -58,8 +58,8 @@ struct OsmFile {
   std::vector<OsmWay> ways;
   std::vector<OsmRelation> relations;
   std::unordered_map<OsmId, std::size_t> way_of;  ///< index into `ways` by identifier
-  /// Of the bounds that the file gives, else of those of its nodes: south-west, south-east, north-east,
-  /// north-west, metres on the map.
+  /// Corners of the bounds that the file gives, else of those of its nodes: south-west, south-east,
+  /// north-east, north-west, metres on the map.
   std::array<glm::dvec2, 4> corners{};
   glm::dvec2 middle{0.0}, middle_deg{0.0};  ///< of the bounds: on the map, and degrees east and north
   std::uint64_t deleted = 0;                ///< elements that an editor has deleted, which are not here

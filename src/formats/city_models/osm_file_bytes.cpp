@@ -37,7 +37,7 @@ OsmTags take_tags(Taker& taker) {
   return tags;
 }
 
-/// In the worker; the input is the map and the file's path.
+/// Reads a file in the worker; the input is the map and the file's path.
 Status read_in_worker(std::string_view input, IsolatedOutput& output) {
   Taker taker(input);
   const std::string map = take_text(taker);

@@ -12,7 +12,7 @@ namespace {
 
 using glm::dvec3;
 
-/// What an area with this tag is, and how high it lies among others.
+/// The cover of areas with a tag, and how high it lies among others.
 struct Cover {
   const char *key, *value;  ///< "*": any
   const char *type, *use;
@@ -56,7 +56,7 @@ constexpr std::array<Cover, 35> covers{{
     {"landcover", "grass", "PlantCover", "", 0.009},
 }};
 
-/// What a way with this tag is where it is no area, and how wide.
+/// The cover and width of ways with a tag that are no areas.
 struct Ribbon {
   const char *key, *value, *type, *use;
   double width_m, lift_m;

@@ -77,7 +77,7 @@ const Unit* take_unit(std::string_view& text) {
   return &*found;
 }
 
-/// What follows a value is another one, a remark, or nothing; letters would be a unit that nobody knows.
+/// A value is followed by another one, a remark, or nothing; letters would be a unit that nobody knows.
 bool ends_value(std::string_view text) {
   skip_blanks(text);
   return text.empty() || !(std::isalnum(static_cast<unsigned char>(text.front())) || text.front() == '%' ||

@@ -66,7 +66,7 @@ double inside_m(dvec2 a, dvec2 b, const std::vector<OsmRing>& rings) {
   return length_m * sum;
 }
 
-/// About `origin`, for far coordinates would cost crossings their digits.
+/// The ring about `origin`, for far coordinates would cost crossings their digits.
 std::vector<dvec3> about(dvec2 origin, const OsmRing& ring) {
   std::vector<dvec3> points;
   points.reserve(ring.size());

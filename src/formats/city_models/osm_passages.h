@@ -10,7 +10,7 @@
 
 namespace parvis::scene {
 
-/// What passages leave of a building.
+/// The parts of a building that passages leave.
 struct OsmOpening {
   double top_m;                 ///< height of the ceiling, on the map
   std::vector<OsmRing> ground;  ///< outlines of what stands on the ground beside the passages: outer ones
@@ -25,7 +25,7 @@ class OsmPassages {
   /// maxheight says, above the highest ground of its way. `city` takes the warnings and must outlive this.
   OsmPassages(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground, CityAssembly& city);
 
-  /// What the passages leave of a building whose rings these are (the outline counter-clockwise, then
+  /// The opening that passages cut into a building whose rings these are (the outline counter-clockwise, then
   /// courtyards clockwise); nothing where no way runs through it. Passages of one building have the height of
   /// the highest. At most 64 pieces of ways are cut out of a building, with a warning.
   std::optional<OsmOpening> through(const std::vector<OsmRing>& rings, const std::string& building) const;

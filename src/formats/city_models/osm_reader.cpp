@@ -46,7 +46,7 @@ bool is_drawn(const OsmTags& tags, bool is_alone) {
          is("barrier", {"hedge", "fence", "wall", "retaining_wall", "city_wall"});
 }
 
-/// What an element is, "amenity=bench"; empty where its tags say nothing of that.
+/// The kind of an element, "amenity=bench"; empty where its tags say nothing of that.
 std::string kind_of_element(const OsmTags& tags) {
   for (const char* key :
        {"building", "highway", "railway", "waterway", "barrier", "natural", "landuse", "leisure", "amenity",

@@ -25,7 +25,7 @@
 namespace parvis::scene {
 namespace {
 
-/// About 71 m east and 111 m north a thousandth of a degree, at Leiden.
+/// A map at Leiden, where a thousandth of a degree is about 71 m east and 111 m north.
 std::string osm(const std::string& elements) {
   return R"(<?xml version="1.0" encoding="UTF-8"?>
 <osm version="0.6"><bounds minlat="52.159" minlon="4.489" maxlat="52.161" maxlon="4.492"/>

@@ -125,7 +125,7 @@ double OsmRelief::height_of_bridge(const OsmWay& bridge, const OpenWays& ways) c
   return is_over_way ? double(layer) * (bridge_clearance_m + deck_depth_m) : low_bridge_m;
 }
 
-/// Of all ways that lie open: ramps are none in tunnels.
+/// The steps of all ways that lie open: ramps are none in tunnels.
 OsmRelief::Steps OsmRelief::steps() const {
   Steps steps;
   for (const OsmWay& way : osm_.ways) {
@@ -187,7 +187,7 @@ void OsmRelief::dig_tunnels(const Steps& steps) {
   lead_to_ground(steps, below_);
 }
 
-/// Above the ground, negative below it.
+/// The level of a node above the ground, negative below it.
 OsmRelief::Level OsmRelief::level_of(OsmId node) const {
   const auto above = above_.find(node), below = below_.find(node);
   if (above != above_.end() && above->second.away_m > 0.0) return above->second;

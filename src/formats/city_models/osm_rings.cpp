@@ -67,7 +67,7 @@ class Borders {
   }
 
  private:
-  /// Of a walk along sides: a point, and the side that led to it.
+  /// A step of a walk along sides: a point, and the side that led to it.
   struct Step {
     std::size_t point;
     bool is_inner;
@@ -79,7 +79,7 @@ class Borders {
     return found->second;
   }
 
-  /// With the points that lie on them.
+  /// Splits the sides at the points that lie on them.
   std::vector<Side> split(const std::vector<Side>& sides) const {
     OsmSegments<std::size_t> near;
     for (std::size_t i = 0; i < sides.size(); ++i) near.add(points_[sides[i].from], points_[sides[i].to], i);
@@ -104,7 +104,7 @@ class Borders {
     return pieces;
   }
 
-  /// What two lines have in common is no border.
+  /// Keeps the sides that occur an odd number of times: a side that two lines have in common is no border.
   void keep_odd(const std::vector<Side>& sides) {
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> count;
     const auto key = [](const Side& side) { return std::minmax(side.from, side.to); };
@@ -116,8 +116,8 @@ class Borders {
     }
   }
 
-  /// For each end of a side the end of another at the same point: neighbours by their angles, so that rings
-  /// touch where more than two sides meet, and do not cross.
+  /// Joins each end of a side to the end of another at the same point: neighbours by their angles, so that
+  /// rings touch where more than two sides meet, and do not cross.
   std::vector<std::size_t> sides_that_follow() const {
     std::vector<std::vector<std::pair<double, std::size_t>>> ends(points_.size());
     for (std::size_t i = 0; i < sides_.size(); ++i) {

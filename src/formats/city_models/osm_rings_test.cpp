@@ -18,7 +18,7 @@ OsmRing block(double x, double y, double width, double depth) {
   return {{x, y}, {x + width, y}, {x + width, y + depth}, {x, y + depth}};
 }
 
-/// Of all areas, without their holes.
+/// Area of all areas without their holes.
 double enclosed_m2(const std::vector<std::vector<OsmRing>>& areas) {
   double sum = 0.0;
   for (const std::vector<OsmRing>& rings : areas)
@@ -93,7 +93,7 @@ TEST(OsmRings, IslandsStandInCourtyardsAndCourtyardsWithoutAHouseAreLost) {
   EXPECT_NEAR(enclosed_m2(areas), 900.0 - 400.0 + 25.0, 1e-9);
 }
 
-/// Of parts of one name, upright ones among them.
+/// Surface of parts of one name, upright ones among them.
 double surface_m2(const Model& model, const std::string& name) {
   double sum = 0.0;
   for (const Part& part : model.parts)

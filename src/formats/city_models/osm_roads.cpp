@@ -23,7 +23,7 @@ struct RoadKind {
   int lanes_each_way;
   float speed_km_h, lane_width_m;
 };
-/// What a way of each kind has where its tags do not say.
+/// Defaults of each kind of way where its tags do not say.
 constexpr std::array<RoadKind, 9> road_kinds{{{"motorway", 2, 120, 3.5f},
                                               {"trunk", 1, 90, 3.5f},
                                               {"primary", 1, 50, 3.25f},
@@ -86,7 +86,8 @@ Lanes lanes_of(const OsmWay& way, const RoadKind& kind) {
   return {std::clamp(lanes.along, 1, max_each_way), std::clamp(lanes.against, 1, max_each_way)};
 }
 
-/// Of the width that is given, else what is usual; a single lane for both directions is shared.
+/// The lane's part of the width that is given, else the usual width; a single lane for both directions is
+/// shared.
 float lane_width_m(const OsmWay& way, const RoadKind& kind) {
   const Lanes lanes = lanes_of(way, kind);
   const double given_m = metres_in(tag(way.tags, "width")).value_or(0.0) / (lanes.along + lanes.against);
@@ -142,7 +143,7 @@ class Roads {
     return road;
   }
 
-  /// With points between its own, for the ground rises and falls between them.
+  /// The path with points between its own, for the ground rises and falls between them.
   std::vector<glm::vec3> laid_on_ground(const std::vector<glm::vec3>& path) const {
     std::vector<glm::vec3> laid;
     for (std::size_t i = 0; i < path.size(); ++i) {

@@ -8,7 +8,7 @@
 namespace parvis::scene {
 namespace {
 
-/// What a word in roof:material says.
+/// The finish that a word in roof:material names.
 struct NamedMaterial {
   const char *word, *finish;
 };

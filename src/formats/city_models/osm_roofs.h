@@ -10,7 +10,7 @@
 
 namespace parvis::scene {
 
-/// What a building's tags say of its roof.
+/// A roof as a building's tags describe it.
 struct OsmRoofTags {
   std::string shape;         ///< value of roof:shape
   bool runs_across = false;  ///< roof:orientation=across: the ridge runs along the shorter sides

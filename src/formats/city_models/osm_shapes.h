@@ -10,7 +10,7 @@
 
 namespace parvis::scene {
 
-/// What is drawn along a line: how its surfaces are called and coloured.
+/// Names and colours of the surfaces drawn along a line.
 struct LineLook {
   CityObject object;
   int material = no_index;  ///< from CityAssembly::add_material

@@ -44,8 +44,8 @@ std::vector<dvec3> on_ground(const std::vector<RaisedPoint>& profile, const Grou
 
 bool has_needles(const OsmTags& tags) { return tag(tags, "leaf_type") == "needleleaved"; }
 
-/// What the map says of a tree's kind, the most exact first. Needles are named beside the species: there are
-/// more genera of conifers than anybody lists.
+/// The tree's kind as the map names it, the most exact tag first. Needles are named beside the species: there
+/// are more genera of conifers than anybody lists.
 std::string species_of(const OsmTags& tags) {
   for (const char* key : {"species", "genus", "leaf_type"})
     if (const std::string& value = tag(tags, key); !value.empty())
@@ -60,7 +60,7 @@ void add_tree(dvec3 foot, double height_m, const OsmTags& tags, CityAssembly& ci
 /// Points of roads, by cells of the plan.
 class RoadPoints {
  public:
-  /// Of one of the roads.
+  /// A point of one of the roads.
   struct Point {
     std::size_t road, index;
   };
@@ -101,7 +101,7 @@ class RoadPoints {
 /// The same for the same tree: 7 to 11 m.
 double usual_tree_m(OsmId id) { return 7.0 + 0.5 * double(std::uint64_t(id) * 2654435761u % 9); }
 
-/// What is painted where people cross: pieces side by side across the carriageway, in one row or two.
+/// Paint where people cross: pieces side by side across the carriageway, in one row or two.
 struct CrossingPaint {
   double piece_m, gap_m;  ///< across the road; no gap: one line from kerb to kerb
   double length_m;        ///< along the road
@@ -127,7 +127,7 @@ std::optional<CrossingPaint> paint_of(const OsmTags& tags) {
 
 bool is_row(const OsmWay& way) { return tag(way.tags, "natural") == "tree_row"; }
 
-/// Between the trees of rows: farther than usual where there would be too many.
+/// Distance between the trees of rows: farther than usual where there would be too many.
 double step_in_rows(const OsmFile& osm, const OsmPlaces& place, CityAssembly& city) {
   double length_m = 0.0;
   for (const OsmWay& way : osm.ways)
@@ -221,7 +221,7 @@ void add_deck(const std::vector<RaisedPoint>& points, const GroundOnMap& ground,
                deck, city);
 }
 
-/// What a way's deck carries to either side of its middle line.
+/// The width of a way's deck to either side of its middle line.
 struct DeckWidth {
   double half_m = 0.0;  ///< 0: it needs no deck
   bool is_of_street = false;

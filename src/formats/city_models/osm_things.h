@@ -11,7 +11,7 @@ namespace parvis::scene {
 void add_osm_tree(glm::dvec3 foot, double height_m, const std::string& kind, bool has_needles,
                   CityAssembly& city);
 
-/// Of the trees along rows. Where there would be more they stand farther apart, with a warning.
+/// Limit of the trees along rows. Where there would be more they stand farther apart, with a warning.
 inline constexpr std::size_t max_row_trees = 20'000;
 
 /// Adds trees (nodes, and every 8 m along rows) as spindles of a few triangles called

@@ -79,7 +79,7 @@ class OpenWays {
   std::unordered_map<std::uint64_t, std::vector<Segment>> cells_;
 };
 
-/// With points between its own, at most `wall_step_m` apart.
+/// The line with points between its own, at most `wall_step_m` apart.
 std::vector<dvec3> in_steps(const std::vector<dvec3>& line) {
   std::vector<dvec3> fine;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -129,7 +129,7 @@ void add_trench(const std::vector<RaisedPoint>& stretch, double half_m, const Op
   add_trench_wall(inner.right, outer.right, false, ways, &stretch, looks.concrete, city);
 }
 
-/// Across the end of a tunnel: above its mouth up to a parapet, or where it leads nowhere a whole wall.
+/// Adds a wall across the end of a tunnel: above its mouth up to a parapet, or whole where it leads nowhere.
 void add_portal(dvec3 end, dvec2 inward, double half_m, bool is_open, const LineLook& look,
                 CityAssembly& city) {
   const dvec2 aside(inward.y, -inward.x);

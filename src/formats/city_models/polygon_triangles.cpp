@@ -7,7 +7,7 @@
 namespace parvis::scene {
 namespace {
 
-/// What the tessellator's callbacks fill.
+/// Output that the tessellator's callbacks fill.
 struct Output {
   std::vector<glm::dvec3>& points;
   std::deque<std::uint32_t> indices{};   ///< what vertex data points to; places stay

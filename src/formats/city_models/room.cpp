@@ -43,7 +43,7 @@ Result<FileContent> read_map(const fs::path& file, const ModelReading& reading, 
   });
 }
 
-/// On a ground, of which only the program knows the heights, the map is read by a child and assembled here.
+/// A map on a ground, whose heights only the program knows, is read by a child and assembled here.
 Result<FileContent> read_map_on_ground(const fs::path& file, const ModelReading& reading, Errors& warnings) {
   static const formats::ReadModel alone = formats::isolated<read_map>();
   if (!reading.ground) return alone(file, reading, warnings);

@@ -13,7 +13,8 @@ inline double cross_in_plan(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y
 
 /// The faces of a roof that rises from all edges of an outline with one slope.
 struct StraightSkeleton {
-  /// In plan, metres; z: distance from the outline's edges at which the moving edges reach the point.
+  /// Points of the skeleton: x and y in plan, metres; z: distance from the outline's edges at which the
+  /// moving edges reach the point.
   std::vector<glm::dvec3> points;
   /// One face per edge, in the order of the rings' edges: indices of points, counter-clockwise, the ends of
   /// the edge first.

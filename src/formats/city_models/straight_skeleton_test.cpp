@@ -22,7 +22,7 @@ const PlanRing t_shape{{0, 0}, {20, 0}, {20, 6}, {13, 6}, {13, 14}, {7, 14}, {7,
 const PlanRing u_shape{{0, 0}, {20, 0}, {20, 15}, {14, 15}, {14, 6}, {6, 6}, {6, 15}, {0, 15}};
 const PlanRing city_block{{0, 0}, {20, 0}, {20, 20}, {0, 20}}, court{{6, 6}, {6, 14}, {14, 14}, {14, 6}};
 
-/// From a point to the line of a face's edge in plan.
+/// Distance from a point to the line of a face's edge in plan.
 double distance_m(const StraightSkeleton& skeleton, const std::vector<int>& face, dvec3 point) {
   const dvec2 a(skeleton.points[std::size_t(face[0])]), b(skeleton.points[std::size_t(face[1])]);
   const dvec2 along = glm::normalize(b - a), offset = dvec2(point) - a;

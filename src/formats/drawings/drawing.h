@@ -64,7 +64,7 @@ struct PlacedBlock {
   glm::dvec3 scale{1.0};     ///< of the block's units
   bool is_mirrored = false;  ///< as seen from above
   std::map<std::string, std::string> attributes;
-  /// Of what it draws: the middle and the size along the block's own x and y axes. Nothing: it draws nothing.
+  /// The middle of its drawing and the size along the block's own x and y axes. Nothing: it draws nothing.
   std::optional<glm::dvec2> centre, size_m;
 };
 

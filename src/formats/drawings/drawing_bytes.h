@@ -9,7 +9,7 @@
 
 namespace parvis::formats {
 
-/// All of the drawing; numbers as they lie in memory.
+/// The whole drawing; numbers as they lie in memory.
 std::string bytes_of(const Drawing& drawing);
 
 /// The drawing that `bytes_of` has written. The bytes are not trusted: counts are checked before anything is

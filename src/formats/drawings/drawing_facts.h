@@ -25,7 +25,7 @@ struct PlacedBlockEntity {
   std::string handle, layer;
 };
 
-/// All of it, in the file's own unit.
+/// Facts of a drawing in the file's own unit.
 struct DrawingFacts {
   std::string version, code_page;
   std::optional<int> unit_code;  ///< $INSUNITS, where it names a unit

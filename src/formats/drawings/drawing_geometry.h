@@ -10,7 +10,7 @@
 
 namespace parvis::formats {
 
-/// What GDAL reads of model space, in metres, about the file's own origin.
+/// The model space as GDAL reads it, in metres, about the file's own origin.
 struct DrawingGeometry {
   /// The lines of each entity of which it drew something, by the entity's handle; of a placed block all lines
   /// of its contents.

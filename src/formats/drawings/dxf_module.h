@@ -7,7 +7,7 @@
 
 namespace parvis::formats {
 
-/// What GDAL's DXF driver does for us.
+/// The functions of the module that calls GDAL's DXF driver.
 struct DxfFunctions {
   Result<DrawingGeometry> (*add_geometry)(const std::string& dxf_text, const DrawingFacts& facts,
                                           const std::string& file, Drawing& drawing);

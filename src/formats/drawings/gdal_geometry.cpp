@@ -49,7 +49,7 @@ struct QuietGdal {
   QuietGdal& operator=(const QuietGdal&) = delete;
 };
 
-/// What a feature's style says, in ground units.
+/// A feature's style, in ground units.
 struct Style {
   glm::u8vec3 colour{0};
   bool is_filled = false;
@@ -185,7 +185,7 @@ class Collector {
     return found->second;
   }
 
-  /// In metres; nothing, and counted, where one lies beyond the earth.
+  /// The points in metres; nothing, and counted, where one lies beyond the earth.
   std::optional<std::vector<glm::dvec3>> points_of(OGRGeometryH geometry) {
     std::vector<glm::dvec3> points(std::size_t(OGR_G_GetPointCount(geometry)));
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -66,7 +66,7 @@ WeightChannel weight_channel(Keys keys, int node, std::size_t targets) {
   return channel;
 }
 
-/// Of the mesh on a node; 0 where there is none.
+/// Number of morph targets of the mesh on a node; 0 where there is none.
 std::size_t target_count(const GltfFile& file, int gltf_node) {
   const int mesh = file.index(file.list("nodes")[std::size_t(gltf_node)], "mesh", "meshes");
   if (mesh < 0) return 0;

@@ -14,9 +14,9 @@ class GltfChunk {
  public:
   using Json = nlohmann::json;
 
-  /// What a value is made of; glTF's numbers of component types.
+  /// The type of a value's components; glTF's numbers of component types.
   enum class Component : int { uint16 = 5123, uint32 = 5125, float32 = 5126 };
-  /// What reads the values; glTF's numbers of targets, and none for keyframes and matrices.
+  /// The use of the values; glTF's numbers of targets, and none for keyframes and matrices.
   enum class Use : int { other = 0, vertices = 34962, indices = 34963 };
 
   /// Appends `values`, each of `type` ("VEC3"), and returns the accessor to them.

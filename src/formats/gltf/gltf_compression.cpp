@@ -48,7 +48,7 @@ const Json& packing_of(const Json& view) {
   return packing.empty() ? gltf_extension(view, meshopt) : packing;
 }
 
-/// What the library asserts must be so: it is the file's to get wrong.
+/// Checks the library's assertions: a file may violate them.
 bool fits_mode(const std::string& mode, std::size_t count, std::size_t stride) {
   if (mode == "ATTRIBUTES") return stride > 0 && stride <= 256 && stride % 4 == 0;
   return (mode == "INDICES" || (mode == "TRIANGLES" && count % 3 == 0)) && (stride == 2 || stride == 4);

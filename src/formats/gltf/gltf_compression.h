@@ -8,7 +8,7 @@
 
 namespace parvis::scene {
 
-/// For each buffer of the file: 0 where only readers without its compressions would need it, else 1. Such a
+/// Flags of the file's buffers: 0 where only readers without its compressions would need it, else 1. Such a
 /// buffer may be missing.
 std::vector<char> needed_buffers(const GltfFile& file);
 

@@ -24,8 +24,8 @@ constexpr std::array<std::string_view, 14> read_ones{"KHR_texture_transform",
                                                      "KHR_node_visibility",
                                                      "EXT_texture_webp"};
 
-/// What a file may require and is shown without: looks of surfaces and lamps, and pictures for which a
-/// checker stands. They are named in the account.
+/// Decides whether a file that requires an extension is shown without it: looks of surfaces and lamps, and
+/// pictures for which a checker stands. They are named in the account.
 bool is_shown_without(std::string_view name) {
   return name.starts_with("KHR_materials_") || name.starts_with("KHR_lights_") ||
          name.starts_with("KHR_texture_") || name.starts_with("EXT_texture_") ||

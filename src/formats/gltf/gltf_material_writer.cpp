@@ -44,7 +44,8 @@ bool is_same_picture(const Texture& a, const Texture& b) {
          a.image.pixels == b.image.pixels;
 }
 
-/// Of a file system, in bytes; half of it is left to the name of the file that the pictures belong to.
+/// The limit of a file system, in bytes; half of it is left to the name of the file that the pictures belong
+/// to.
 constexpr std::size_t max_file_name = 255, max_picture_stem = 120;
 
 std::string file_name(const fs::path& file, const std::string& name) {

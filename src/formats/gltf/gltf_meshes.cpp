@@ -12,7 +12,7 @@ namespace {
 
 constexpr int triangles = 4, strip = 5, fan = 6;
 
-/// Of one run of strips or fans.
+/// Adds the triangles of one run of strips or fans.
 void add_triangles(std::span<const std::uint32_t> order, int mode, std::vector<std::uint32_t>& list) {
   for (std::size_t i = 0; i + 2 < order.size(); ++i) {
     if (mode == strip)  // every second triangle is wound the other way
@@ -65,7 +65,7 @@ std::vector<glm::vec4> read_colours(const GltfFile& file, const GltfFile::Json& 
 
 std::string texcoord(int set) { return fmt::format("TEXCOORD_{}", set); }
 
-/// What becomes of an attribute that is neither a position nor a normal.
+/// Counts the fate of an attribute that is neither a position nor a normal.
 void count_attribute(const std::string& name, UvSets sets, bool is_skinned, FileAccount& account) {
   if (name.starts_with("TEXCOORD_"))
     return account.unneeded("texture coordinates", "no texture takes them", name,

@@ -70,7 +70,7 @@ class TreeReader {
     return value.get<std::size_t>();
   }
 
-  /// From the roots on; what no root leads to hangs together in circles.
+  /// Reads all nodes from the roots on; nodes that no root leads to form circles.
   void read_all() {
     std::vector<std::uint8_t> is_child(nodes_.of_gltf.size(), 0);
     for (const Json& node : file_.list("nodes"))

@@ -116,7 +116,7 @@ class PartReader {
   }
 
  private:
-  /// Of the mesh of a node, in the node's frame. Skinned ones stand in the file's frame: their own node
+  /// Parts of the mesh of a node, in the node's frame. Skinned ones stand in the file's frame: their own node
   /// counts for nothing.
   std::vector<Part> parts_of(int node, const Json& node_source, int mesh) const {
     std::vector<Part> parts;

@@ -67,7 +67,7 @@ void settle_origin(Model& model, FileAccount& account) {
   formats::note_origin(model.origin, account);
 }
 
-/// What the file holds beside nodes, meshes and materials.
+/// Counts the file's contents beside nodes, meshes and materials.
 void count_others(const GltfFile& file, const Model& model, FileAccount& account) {
   account.settle("animations", file.list("animations").size(), model.animations.size(),
                  "they move nothing of the scene");

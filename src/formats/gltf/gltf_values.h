@@ -14,8 +14,8 @@ template <class... Args>
   throw GltfFile::GltfProblem{fmt::format(format, std::forward<Args>(args)...)};
 }
 
-/// To be called before `bytes` are allocated; none stands for more than 64 bits can say. Throws GltfProblem
-/// where the budget has not so much left; the message begins with what they are for.
+/// Checks the budget before `bytes` are allocated; none stands for more than 64 bits can say. Throws
+/// GltfProblem where the budget has not so much left; the message begins with what they are for.
 template <class... Args>
 void gltf_charge(std::optional<std::uint64_t> bytes, fmt::format_string<Args...> format, Args&&... args) {
   if (const Status status = check_memory(bytes, fmt::format(format, std::forward<Args>(args)...)); !status)

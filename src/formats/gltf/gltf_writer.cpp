@@ -57,7 +57,7 @@ class Writer {
     nodes_.push_back({{"name", "z_up"}, {"matrix", gltf_matrix(glm::transpose(z_up_from_y_up()))}});
   }
 
-  /// All of `model`, in `materials`, on nodes of an object, below the file's node `parent`.
+  /// Adds all of `model`, in `materials`, on nodes of an object, below the file's node `parent`.
   Status add(const Model& model, const std::vector<Material>& materials, const std::vector<ModelNode>& nodes,
              const std::string& name, int parent) {
     Result<const WrittenModel*> shared = written(model, materials);
@@ -111,7 +111,7 @@ class Writer {
   }
 
  private:
-  /// What objects of one model and paint share.
+  /// Data shared by objects of one model and paint.
   struct WrittenModel {
     int first_material;
     std::vector<WrittenMesh> meshes;

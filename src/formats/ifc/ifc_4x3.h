@@ -12,7 +12,7 @@ enum class IfcSchema : std::uint8_t {
   ifc_4x3  ///< to be written as IFC 4 first
 };
 
-/// What a file's header says of its schema, "FILE_SCHEMA(('IFC4'))"; empty: nothing.
+/// The schema in a file's header, "FILE_SCHEMA(('IFC4'))"; empty: nothing.
 std::string schema_of_ifc(std::string_view text);
 
 /// Kinds of objects and shapes that a file holds, but IFC 4 does not know, with their numbers:

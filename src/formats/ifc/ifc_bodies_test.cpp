@@ -54,7 +54,7 @@ ReadIfc read_text(const std::string& text, const std::string& map = {}) {
   return {std::move(model), to_string(warnings)};
 }
 
-/// Of closed bodies whose triangles face outward.
+/// Volume of closed bodies whose triangles face outward.
 double volume_m3(const Model& model) {
   double volume = 0.0;
   for (const Part& part : model.parts)

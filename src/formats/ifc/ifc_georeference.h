@@ -20,9 +20,9 @@ struct IfcGeoreference {
       place_deg;  ///< of the site, else of the origin on the map: degrees, east and north
 };
 
-/// By IfcMapConversion (whose scale, less than a per mille off 1, is left out), else by the TrueNorth of the
-/// file's context, and by the latitude and longitude of IfcSite. Numbers that are not finite or on no map
-/// count as none.
+/// The place by IfcMapConversion (whose scale, less than a per mille off 1, is left out), else by the
+/// TrueNorth of the file's context, and by the latitude and longitude of IfcSite. Numbers that are not finite
+/// or on no map count as none.
 IfcGeoreference georeference_of(BuildingModel& building);
 
 /// The same place on another map (formats/terrain/map_projection.h), turned to its north; as it was where one

@@ -19,7 +19,7 @@ constexpr double max_offset_m = 10000.0;     // farther away floats are coarser 
 constexpr float min_crease_cosine = 0.866f;  // 30 degrees: the sides of columns and pipes look round
 constexpr double weld_m = 1e-4;              // corners closer than this are one
 
-/// What objects of a kind look like where the file does not say.
+/// The usual look of objects of a kind where the file does not say.
 IfcLook usual_look(const std::string& kind) {
   static const std::map<std::string, IfcLook, std::less<>> looks{
       {"IfcBeam", {{0.55f, 0.45f, 0.35f}, 1.0f}},    {"IfcCurtainWall", {{0.55f, 0.62f, 0.66f}, 0.4f}},

@@ -33,7 +33,7 @@ struct IfcShape {
   std::vector<glm::vec2> uvs;       ///< one per corner where its look has a picture, v down; else empty
 };
 
-/// What a file holds.
+/// The bodies of a file and its account.
 struct IfcBodies {
   FileAccount account{"IFC"};
   std::vector<IfcShape> shapes;

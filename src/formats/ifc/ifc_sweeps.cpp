@@ -139,7 +139,7 @@ double value_of(const std::shared_ptr<IfcPositiveLengthMeasure>& length, double 
   return length && std::isfinite(length->m_value) ? length->m_value * unit_m : 0.0;
 }
 
-/// Of a polyline with parameters, which count its points, the part between them.
+/// The part of a polyline between two parameters, which count its points.
 std::vector<dvec3> trimmed(const std::vector<dvec3>& path, double from, double to) {
   const double last = double(path.size() - 1);
   from = std::clamp(from, 0.0, last), to = std::clamp(to, 0.0, last);

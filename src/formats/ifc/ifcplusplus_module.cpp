@@ -143,7 +143,8 @@ float value_of(const std::shared_ptr<IfcNormalisedRatioMeasure>& measure) {
   return measure ? glm::clamp(float(measure->m_value), 0.0f, 1.0f) : 0.0f;
 }
 
-/// By the materials that the object is made of. Of a wall of several layers the first that has a style shows.
+/// The look by the materials of which the object consists. Of a wall of several layers the first that has a
+/// style shows.
 std::optional<IfcLook> look_of_material(const IfcObjectDefinition& object, IfcTextures& textures) {
   for (const IfcSurfaceStyle* style : material_styles_of(object))
     for (const auto& element : style->m_Styles)
@@ -199,7 +200,7 @@ class Complaints {
   void add(const std::string& message) {
     if (++count_ <= max_warnings) warnings_.push_back({message, {file_, 0, 0}});
   }
-  /// About an entity, which `name_entities` names by the object that it belongs to.
+  /// Adds a warning about an entity, which `name_entities` names by the object that it belongs to.
   void add(const BuildingEntity& entity, const std::string& message) {
     if (!seen_.emplace(entity.m_entity_id, message).second) return;
     if (count_ < max_warnings) about_.push_back({warnings_.size(), &entity});

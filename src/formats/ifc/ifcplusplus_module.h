@@ -6,7 +6,7 @@
 
 namespace parvis::scene {
 
-/// What IFC++ does for us.
+/// The functions of the module that calls IFC++.
 struct IfcFunctions {
   Result<IfcBodies> (*bodies)(std::string text, const std::string& name, Errors& warnings);
 };

@@ -6,7 +6,7 @@
 
 namespace parvis::inventor {
 
-/// What Coin does for us.
+/// The functions of the module that calls Coin.
 struct CoinFunctions {
   Result<formats::FileContent> (*read)(const std::filesystem::path& file,
                                        const formats::ModelReading& reading, Errors& warnings);

@@ -19,7 +19,7 @@ using scene::Part;
 class Inventor : public testing::Test {
  protected:
   Inventor() { inventor::furnish(house_); }
-  /// Through the door that scripts use: in a child process.
+  /// Loads a model as scripts do: in a child process.
   Result<Model> load(const std::string& name, std::string_view text) {
     return house_.get<formats::Readers>().read(folder_.write(name, text), {}, warnings_);
   }

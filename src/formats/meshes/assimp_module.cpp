@@ -139,8 +139,8 @@ class Converter {
     return path ? read_image8(*path) : Result<Image8>(path.errors());
   }
 
-  /// Of coordinates that assimp has read itself, in single precision. Nodes are few: the meshes' own boxes
-  /// count.
+  /// Finds the origin of coordinates that assimp has read itself, in single precision. Nodes are few: the
+  /// meshes' own boxes count.
   void find_origin(const glm::dmat4& z_up) {
     glm::dvec3 low(std::numeric_limits<double>::max()), high(-low);
     std::ignore = each_node(z_up, [&](const aiNode& node, const glm::dmat4& model_from_node) {
@@ -368,7 +368,7 @@ FarFile brought_near(const fs::path& file, const std::string& extension, formats
   return near;
 }
 
-/// What the format is called, as its users do.
+/// The format's name as its users know it.
 std::string format_of(const std::string& extension) {
   std::string name = extension.substr(std::min<std::size_t>(1, extension.size()));
   std::ranges::transform(name, name.begin(), [](unsigned char c) { return char(std::toupper(c)); });

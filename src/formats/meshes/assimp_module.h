@@ -6,7 +6,7 @@
 
 namespace parvis::scene {
 
-/// What assimp does for us.
+/// The functions of the module that calls assimp.
 struct AssimpFunctions {
   Result<formats::FileContent> (*read)(const std::filesystem::path& file, formats::UpAxis up,
                                        Errors& warnings);

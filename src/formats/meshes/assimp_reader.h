@@ -8,8 +8,8 @@
 
 namespace parvis::scene {
 
-/// In metres, z up: the file is taken as y up (PLY and STL: z up) unless `up` says otherwise, or its heights
-/// would be those of a national grid's northings. Coordinates of a national grid are taken off
+/// Reads a model in metres, z up: the file is taken as y up (PLY and STL: z up) unless `up` says otherwise,
+/// or its heights would be those of a national grid's northings. Coordinates of a national grid are taken off
 /// (Model::origin), in double precision for OBJ, PLY, STL and OFF. Objects keep their names, vertices their
 /// colours (sRGB). The file's extension alone decides which of assimp's importers reads it, and files that it
 /// names are opened below its own folder only. A picture that is missing is named in `warnings` and replaced

@@ -58,7 +58,7 @@ TEST(Assimp, DamagedTextNeverCrashes) {
   }
 }
 
-/// Of the surface, metres.
+/// Size of the surface, metres.
 glm::vec3 size_of(const Model& model) { return bounds(model).size(); }
 
 TEST(Assimp, CoordinatesOfANationalGridKeepTheirMillimetres) {

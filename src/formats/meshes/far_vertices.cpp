@@ -94,7 +94,7 @@ void each_line(std::string_view bytes, std::size_t at, const Line& line) {
   }
 }
 
-/// Of a PLY file whose first element is "vertex", with no lists in it.
+/// Vertices of a PLY file whose first element is "vertex", with no lists in it.
 std::optional<Vertices> ply_vertices(std::string_view bytes) {
   Vertices found;
   std::string_view format;
@@ -135,7 +135,7 @@ std::optional<Vertices> ply_vertices(std::string_view bytes) {
   return is_whole && is_double ? std::optional(found) : std::nullopt;  // floats are as exact as assimp's
 }
 
-/// Of an OFF file: behind the line of counts.
+/// Vertices of an OFF file, behind the line of counts.
 std::optional<Vertices> off_vertices(std::string_view bytes) {
   Vertices found;
   bool is_found = false;

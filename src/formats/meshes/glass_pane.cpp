@@ -13,7 +13,7 @@ constexpr float mirrored = 0.08f;   // of the light, seen straight on: by both f
 constexpr float tint_light =
     0.5f;  // of the light that a tint keeps, how much more of that colour is mirrored
 
-/// By the numbers of the materials of glass.
+/// Panes by the numbers of the materials of glass.
 using Panes = std::map<int, int>;
 
 int pane_for(Model& model, int glass, Panes& panes) {

@@ -90,7 +90,7 @@ MaterialChange change_of(const Node& node) {
   return given;
 }
 
-/// What masks could name: where in which pictures the triangles of these parts lie.
+/// The places that masks could name: where in which pictures the triangles of these parts lie.
 std::string what_masks_find(const Model& model, const std::vector<std::size_t>& parts) {
   std::set<std::string> pictures;
   glm::vec2 low(1e9f), high(-1e9f);

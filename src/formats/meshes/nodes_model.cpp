@@ -67,7 +67,7 @@ NodeSchema model_schema() {
   return schema;
 }
 
-/// What decides how the node's file is read.
+/// Key of the attributes that decide how the node's file is read.
 std::string reading_key(const Node& node) {
   const std::string level = node.gives("lod") ? fmt::format("&lod={}", node.number("lod")) : "";
   const std::string cell = node.gives("cell") ? fmt::format("&cell={}", node.number("cell")) : "";

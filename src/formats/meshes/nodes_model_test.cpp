@@ -123,7 +123,7 @@ TEST_F(ModelNodes, AMaskThatMatchesNothingSaysWhatTheModelHas) {
   EXPECT_TRUE(holds(warnings, "this material changes nothing; what target names ")) << warnings;
 }
 
-/// As windows of cars are, in files that give them a thickness.
+/// Windows of cars are such glass in files that give them a thickness.
 TEST_F(ModelNodes, OpenSolidGlassIsAPane) {
   const auto expect_pane = [&](const char* script) {
     const auto loaded = load(script);

@@ -60,7 +60,7 @@ Mesh finished(Mesh mesh) {
   return mesh;
 }
 
-/// From the inner side over the tread to the outer side.
+/// The tyre from the inner side over the tread to the outer side.
 Mesh tyre(const WheelShape& shape) {
   const float half = 0.5f * shape.width_m, r = shape.radius_m, rim = shape.rim_radius_m;
   const float shoulder = 0.25f * (r - rim);
@@ -102,7 +102,7 @@ Mesh rim(const WheelShape& shape) {
   return finished(std::move(mesh));
 }
 
-/// What one sees between the spokes: the brake's dark drum; and the wheel's inner side.
+/// The disc that is seen between the spokes, as the brake's dark drum, and the wheel's inner side.
 Mesh disc(const WheelShape& shape) {
   const float half = 0.5f * shape.width_m;
   const ProfilePoint front[] = {{0.92f * shape.rim_radius_m, 0.1f * half}, {0.0f, 0.1f * half}};

@@ -14,7 +14,7 @@ struct WheelShape {
   bool has_round_shoulders = true;  ///< of the tyre; else its profile has half as many points
 };
 
-/// About the origin; turns about y; the outer side looks to +y (left). One part "tyre", one "rim".
+/// A wheel about the origin; turns about y; the outer side looks to +y (left). One part "tyre", one "rim".
 Model make_wheel(const WheelShape& shape);
 
 }  // namespace parvis::scene

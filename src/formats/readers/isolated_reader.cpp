@@ -17,18 +17,18 @@ namespace parvis::formats {
 namespace {
 namespace fs = std::filesystem;
 
-/// What a reader may take: a start, and more for each megabyte of its file, ten times what the slowest of
+/// Limits of a reader's time: a start, and more for each megabyte of its file, ten times what the slowest of
 /// them was seen to need.
 constexpr double start_s = 30.0, s_per_mb = 6.0, max_s = 1800.0;
-/// Of memory; the start is for the pictures that a small model may show.
+/// Limits of its memory; the start is for the pictures that a small model may show.
 constexpr std::uint64_t start_bytes = std::uint64_t{4} << 30, bytes_per_byte = 256,
                         max_bytes = std::uint64_t{16} << 30;
 
-/// What libraries read of the system: map projections.
+/// Folders of the system that libraries read: map projections.
 constexpr std::array system_folders{"/usr/share/proj", "/usr/share/gdal"};
 
-/// Of larger files the pictures are prepared for before the file is read: they would have all of it read
-/// again.
+/// Size up to which a file is read again for its pictures; larger files prepare for pictures before they are
+/// read.
 constexpr std::uint64_t small_bytes = std::uint64_t{1} << 20;
 
 /// The part of `ModelReading` that travels.

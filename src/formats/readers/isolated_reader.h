@@ -12,7 +12,7 @@ namespace parvis::formats {
 using ReadFunction = Result<FileContent>(const std::filesystem::path& file, const ModelReading& reading,
                                          Errors& warnings);
 
-/// What a child that reads `file` may use: files below its folder, and memory and time by its size.
+/// Limits of a child that reads `file`: files below its folder, and memory and time by its size.
 IsolationLimits limits_for(const std::filesystem::path& file);
 
 /// Warnings as flat bytes: they stand before what a child returns.
@@ -25,11 +25,11 @@ std::string bytes_of_account(const scene::FileAccount& account);
 /// The account at the front of what a child has returned.
 scene::FileAccount take_account(Taker& taker);
 
-/// In the child: reads the file that `input` names and fills `output` with warnings, account and model.
+/// Runs in the child: reads the file that `input` names and fills `output` with warnings, account and model.
 Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput& output);
 
-/// In the program: has `work` read the file, and checks what comes back. The child may open files below the
-/// file's own folder alone, and has time and memory by the size of the file. A reading with a ground
+/// Runs in the program: has `work` read the file, and checks what comes back. The child may open files below
+/// the file's own folder alone, and has time and memory by the size of the file. A reading with a ground
 /// (`ModelReading::ground`) is an error: the child cannot ask for heights.
 Result<FileContent> read_isolated(IsolatedWork work, const std::filesystem::path& file,
                                   const ModelReading& reading, Errors& warnings);

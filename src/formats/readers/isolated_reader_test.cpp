@@ -92,7 +92,7 @@ TEST(ModelBytes, IndicesAndCountsThatLieAreErrors) {
   refuse("weights", [](scene::Model& m) { m.animations[0].weights[0].values.clear(); });
 }
 
-/// What the file says is done to the reader.
+/// A reader that does whatever the file says.
 Result<FileContent> obedient(const std::filesystem::path& file, const ModelReading& reading,
                              Errors& warnings) {
   std::string order;

@@ -6,7 +6,7 @@
 namespace parvis::formats {
 namespace {
 
-/// Of the range from the number in it that is nearest to zero.
+/// Distance of the range from zero: that of its nearest number.
 double distance_from_zero(double low, double high) { return std::max({low, -high, 0.0}); }
 
 }  // namespace

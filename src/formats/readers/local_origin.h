@@ -8,7 +8,7 @@
 
 namespace parvis::formats {
 
-/// From this distance on single precision ends at millimetres.
+/// Distance from which on single precision ends at millimetres.
 inline constexpr double max_local_m = 10'000.0;
 
 /// Whole metres that are to be taken off coordinates (z up) within `low` and `high`: the middle of a plan

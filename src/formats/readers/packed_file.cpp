@@ -16,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t piece_bytes = std::size_t{1} << 20;  // unpacked at a time
-/// Of a packed file, in which the first bytes of its content lie: a block of bzip2 is smaller.
+/// Size of the front of a packed file in which the first bytes of its content lie: a block of bzip2 is
+/// smaller.
 constexpr std::size_t packed_front_bytes = std::size_t{1} << 20;
 /// XML and JSON with many blanks unpack to some 50 times their size. What unpacks to far more than that was
 /// made to fill the memory; small files may.
@@ -35,7 +36,7 @@ fs::path unpacked_name(const fs::path& file) {
   return extension == ".gz" || extension == ".bz2" ? file.stem() : file.filename();
 }
 
-/// What is left to be unpacked, and the room for what comes out.
+/// The remaining packed bytes, and the room for unpacked ones.
 struct Flow {
   std::string_view packed;
   std::span<char> room;

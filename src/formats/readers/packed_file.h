@@ -31,8 +31,8 @@ Result<std::string> read_unpacked(const std::filesystem::path& file, std::uint64
 /// The same with the limit of `read_file`.
 Result<std::string> read_unpacked(const std::filesystem::path& file);
 
-/// Up to `count` bytes from the beginning of the content. Errors: those of `read_unpacked`, but for an end
-/// that comes too early.
+/// The first `count` bytes of the content, fewer where it is shorter. Errors: those of `read_unpacked`, but
+/// for an end that comes too early.
 Result<std::string> unpacked_front(const std::filesystem::path& file, std::size_t count);
 
 /// How large the content is likely to be, in bytes: the file's size, or what that usually unpacks to. 0 where

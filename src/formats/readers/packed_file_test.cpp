@@ -10,7 +10,7 @@
 namespace parvis::formats {
 namespace {
 
-/// Of some pieces, which packs well, but not like zeros.
+/// A text of some pieces, which packs well, but not like zeros.
 std::string long_text() {
   std::string text;
   for (int i = 0; i < 300'000; ++i) text += fmt::format("{} ", i);

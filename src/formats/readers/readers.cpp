@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t front_bytes = 4096;
 
-/// What files begin with that are packed, as towns publish them, and what unpacks them.
+/// The first bytes of packed files, as towns publish them, and the command that unpacks them.
 struct Archive {
   std::string_view begins;
   const char* unpack;

@@ -20,20 +20,20 @@ namespace parvis::formats {
 /// How the file's axes are to be read: `file` leaves it to the format (glTF: y up; OBJ: y up; else z up).
 enum class UpAxis : unsigned char { file, y, z };
 
-/// What a script may say about reading a model file.
+/// A script's choices about reading a model file.
 struct ModelReading {
   UpAxis up = UpAxis::file;
   std::optional<double> max_detail = {};  ///< of city models: the level of detail; the highest there is
   std::optional<double> cell_m = {};      ///< of grids of heights that have no place on the earth
   scene::GroundOnMap ground = {};         ///< on which a file without heights (OpenStreetMap) stands
-  /// On which a file with a place on the earth is laid, as Model::map; empty: on its own.
+  /// The map on which a file with a place on the earth is laid, as Model::map; empty: its own.
   std::string map = {};
   /// Filled with the place on the earth (degrees: east, north) by readers whose file says it; may be null.
   std::optional<glm::dvec2>* place_deg = nullptr;
 };
 
-/// What a reader makes of a file: the model in metres, z up, and the account of what the file holds. An
-/// account has no default, so a reader without one does not compile.
+/// A reader's result: the model in metres, z up, and the account of what the file holds. An account has no
+/// default, so a reader without one does not compile.
 struct FileContent {
   scene::Model model;
   scene::FileAccount account;

@@ -23,7 +23,7 @@ constexpr int max_across = 1000;           // two million triangles
 constexpr double max_height_m = 20'000.0;  // what is beyond is no height on the earth
 constexpr double max_block_mb = 256.0;
 
-/// What GDAL says goes into our errors, not to the terminal.
+/// Redirects GDAL's messages into our errors, away from the terminal.
 struct QuietGdal {
   QuietGdal() {
     CPLPushErrorHandler(CPLQuietErrorHandler);
@@ -35,7 +35,7 @@ struct QuietGdal {
 
 using Dataset = std::unique_ptr<void, void (*)(GDALDatasetH)>;
 
-/// Of GeoTIFF alone, and nothing beside it: other formats name further files, or servers.
+/// Opens a GeoTIFF alone, and nothing beside it: other formats name further files, or servers.
 Dataset open(const std::filesystem::path& file) {
   static const bool is_ready = (GDALAllRegister(), true);
   static_cast<void>(is_ready);
@@ -49,8 +49,9 @@ Dataset open(const std::filesystem::path& file) {
           }};
 }
 
-/// Of the file's images, for overviews are read, too. GDAL takes the memory that the file claims for a block
-/// (a tile, or a strip of rows that may be many more than there are), however little the file holds.
+/// The largest block of all the file's images, for overviews are read, too. GDAL takes the memory that the
+/// file claims for a block (a tile, or a strip of rows that may be many more than there are), however little
+/// the file holds.
 double largest_block_mb(const std::filesystem::path& file) {
   const auto say_nothing = [](TIFF*, void*, const char*, const char*, va_list) { return 1; };
   const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options{TIFFOpenOptionsAlloc(),
@@ -67,7 +68,7 @@ double largest_block_mb(const std::filesystem::path& file) {
   return 1e-6 * double(maximum);
 }
 
-/// From a sample (column, row) to the map, in the map's own units.
+/// The map from a sample (column, row) to coordinates in the map's own units.
 struct Georeference {
   std::array<double, 6> transform;
   bool is_in_degrees = false;
@@ -80,7 +81,7 @@ struct Georeference {
   }
 };
 
-/// By EPSG's number where it has one, else described.
+/// The system's name: EPSG's number where it has one, else a description.
 std::string name_of_system(OGRSpatialReferenceH map) {
   for (const char* part : {"PROJCS", static_cast<const char*>(nullptr)}) {
     const char* const authority = OSRGetAuthorityName(map, part);

@@ -6,7 +6,7 @@
 
 namespace parvis::scene {
 
-/// What GDAL does for us.
+/// The functions of the module that calls GDAL.
 struct GdalFunctions {
   Result<HeightGrid> (*read)(const std::filesystem::path& file, std::optional<double> cell_m,
                              Errors& warnings, const std::string& map);

@@ -10,7 +10,7 @@ namespace parvis::scene {
 
 class ProjectedMap;
 
-/// As far as UTM goes, north and south.
+/// The limit of UTM, north and south.
 inline constexpr double max_latitude_deg = 84.0;
 
 /// A projected coordinate system, east first, in metres whatever its own unit is.
@@ -24,7 +24,7 @@ class MapProjection {
   /// that is projected.
   static std::optional<MapProjection> of(const std::string& system);
 
-  /// What `of` reads as this system.
+  /// The text that `of` reads as this system.
   const std::string& system() const { return system_; }
   /// Easting and northing in metres; not finite where the place lies beyond the map.
   glm::dvec2 operator()(glm::dvec2 place_deg) const;

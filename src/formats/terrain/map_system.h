@@ -14,7 +14,7 @@ namespace parvis::scene {
 /// An error where PROJ cannot be loaded: to be asked before anything is laid on a map.
 Status projections_known();
 
-/// What a system's coordinates are; its heights, if any, come third.
+/// The meaning of a system's coordinates; its heights, if any, come third.
 struct MapSystem {
   std::string name;             ///< "JGD2011 + JGD2011 (vertical) height"
   bool is_geographic = false;   ///< the plan is in degrees of longitude and latitude

@@ -15,7 +15,7 @@ class ProjectedMap {
   ProjectedMap(const ProjectedMap&) = delete;
   ProjectedMap& operator=(const ProjectedMap&) = delete;
 
-  /// From degrees (east, north) to the map's unit; not finite beyond the map.
+  /// Converts degrees (east, north) to the map's unit; not finite beyond the map.
   virtual glm::dvec2 forward(glm::dvec2 deg) const = 0;
   /// Back to degrees; not finite beyond the map.
   virtual glm::dvec2 inverse(glm::dvec2 in_unit) const = 0;
@@ -23,7 +23,7 @@ class ProjectedMap {
   virtual double unit_m() const = 0;
 };
 
-/// What PROJ does for us; map_system.h and map_projection.h say more.
+/// The functions of the module that calls PROJ; map_system.h and map_projection.h say more.
 struct ProjFunctions {
   std::optional<MapSystem> (*map_system)(int epsg);
   bool (*lies_in_area)(int epsg, glm::dvec2 on_map);

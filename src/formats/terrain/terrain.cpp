@@ -24,7 +24,7 @@ std::optional<glm::dvec3> origin_of(const HeightGrid& grid) {
   return glm::floor(glm::dvec3(middle.x, middle.y, min_m));
 }
 
-/// By the neighbours that there are, two of them at most along each axis.
+/// The normal by the neighbours that exist, at most two along each axis.
 glm::vec3 normal_at(const HeightGrid& grid, int column, int row) {
   const auto along = [&](int columns, int rows) {
     const auto neighbour = [&](int sign) {
