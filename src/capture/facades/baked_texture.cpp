@@ -100,7 +100,7 @@ std::vector<Square> squares_of(const std::vector<Half>& halves, float scale, std
   return squares;
 }
 
-/// Of the half `which` of a square, from a point of the square in texels: how far along its two legs.
+/// Place of a square's point, in texels, along the two legs of the square's half `which`, 0 to 1.
 glm::vec2 along_legs(const Square& square, int which, glm::vec2 at) {
   const float leg = float(square.side - 4 * border);
   return ((which == 0 ? at : float(square.side) - at) - float(border)) / leg;

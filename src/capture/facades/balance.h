@@ -10,7 +10,8 @@
 
 namespace parvis::facades {
 
-/// Per channel: value in sRGB (0..1) of the balanced photograph = scale * value + offset.
+/// A scale and an offset per channel: value in sRGB (0..1) of the balanced photograph = scale * value +
+/// offset.
 struct Balance {
   std::array<double, 3> scale{1, 1, 1}, offset{0, 0, 0};
 };

@@ -25,8 +25,8 @@ inline constexpr BaselineMethod baseline_methods[]{
 /// The name of the method, as in the keys of the bench.
 const char* name_of(BaselineMethod method);
 
-/// What `view` sees of the model by a baseline: linear RGBA, alpha 0 where the method shows nothing. To be
-/// compared with layers it needs photographs that are balanced and have their trust, as layers have them.
+/// The model in `view` by a baseline: linear RGBA, alpha 0 where the method shows nothing. To be compared
+/// with layers it needs photographs that are balanced and have their trust, as layers have them.
 ImageF baseline_view(BaselineMethod method, const LayerModel& model, const View& view,
                      std::span<const PreparedPhoto> photos);
 

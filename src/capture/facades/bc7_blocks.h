@@ -21,7 +21,7 @@ Bc7Block bc7_block(const BlockTexels& texels);
 /// Blocks of other modes, which `bc7_block` never makes, are transparent black.
 BlockTexels texels_of(const Bc7Block& block);
 
-/// Of an RGBA picture with sides that are multiples of 4: blocks row by row.
+/// Blocks of an RGBA picture with sides that are multiples of 4: blocks row by row.
 std::vector<Bc7Block> bc7_blocks(const Image8& rgba);
 /// The picture of `width` x `height` pixels, multiples of 4, that these blocks hold.
 Image8 picture_of(const Bc7Block* blocks, int width, int height);

@@ -40,13 +40,13 @@ inline constexpr int refinements = 2;
 
 /// Mode 6: one line of 16 colours with alpha.
 Coded one_line(const BlockTexels& texels);
-/// Of a block of mode 6.
+/// Texels of a block of mode 6.
 BlockTexels texels_of_one_line(const Bc7Block& block);
 
 /// Mode 1: the block divided by one of 64 patterns, and a line of 8 opaque colours for each part. Alpha is
 /// not looked at.
 Coded two_lines(const BlockTexels& texels);
-/// Of a block of mode 1.
+/// Texels of a block of mode 1.
 BlockTexels texels_of_two_lines(const Bc7Block& block);
 
 }  // namespace parvis::facades::bc7

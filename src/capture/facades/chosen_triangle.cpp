@@ -13,7 +13,7 @@ constexpr float largest_bend_px = 0.02f;   ///< of a straight line, looked up ev
 
 using Corners = std::span<const glm::vec3, 3>;
 
-/// What is drawn of one layer: places in its box, pixels, and the tiles that hold them.
+/// The drawn part of one layer: places in its box, pixels, and the tiles that hold them.
 struct StoredCorners {
   std::array<glm::vec2, 3> at{};
   int first = 0, across = 0;  ///< see ChosenTriangle::tiles
@@ -55,12 +55,12 @@ std::optional<StoredCorners> stored_corners(const PackedFacade& facade, const Pa
   return stored;
 }
 
-/// Of a photograph's pixels at a point before it, log2 of world units.
+/// Size of a photograph's pixel at a point before it, log2 of world units.
 float pixel_size_log2(const View& view, glm::vec3 point) {
   return float(std::log2(std::max(view.to_camera(glm::dvec3(point)).z / view.fx, 1e-6)));
 }
 
-/// What is drawn of the layers that are shown, one or two; nothing where stored_corners has nothing of one.
+/// The drawn parts of the layers that are shown, one or two; nothing where stored_corners has nothing of one.
 using Stored = std::array<StoredCorners, 2>;
 std::optional<Stored> stored_in(const PackedFacade& facade, std::span<const std::uint32_t> shown, Corners c) {
   Stored stored;
@@ -72,7 +72,7 @@ std::optional<Stored> stored_in(const PackedFacade& facade, std::span<const std:
   return stored;
 }
 
-/// What up to three layers say of a point. Not said: that of layers that are not given.
+/// Opinions of up to three layers about a point; those of layers that are not given are undefined.
 using Opinions = std::array<FacadeLookup::Opinion, 3>;
 
 Opinions opinions_at(FacadeLookup& lookup, const ChosenEye& eye, std::span<const std::uint32_t> layers,
@@ -101,14 +101,15 @@ bool are_of_one_kind(const Opinions& corner, const Opinions& middle, std::size_t
   return true;
 }
 
-/// Of the first layer, of the second, and of the fallback. The second may be the better one at a corner.
+/// Weights of the first layer, of the second, and of the fallback. The second may be the better one at a
+/// corner.
 glm::vec3 shares_of(FacadeLookup& lookup, const Opinions& corner) {
   if (!(corner[1].key < corner[0].key)) return lookup.shares(corner[0], corner[1], corner[2].key);
   const glm::vec3 swapped = lookup.shares(corner[1], corner[0], corner[2].key);
   return {swapped.y, swapped.x, swapped.z};
 }
 
-/// Of a photograph's colours to be shown, by its opinion: its own at its own viewpoint.
+/// Balance of a photograph's shown colours, by its opinion: its own at its own viewpoint.
 struct ShownBalance {
   glm::vec3 scale, offset;
 };
@@ -122,7 +123,7 @@ glm::vec3 fallback_of(const PackedFacade& facade, std::size_t corner) {
   return glm::vec3(facade.fallback[corner]) / 255.0f;
 }
 
-/// What the layers that are shown weigh at a corner, which is `corner` of all corners.
+/// Weights of the layers that are shown at a corner, which is `corner` of all corners.
 ChosenCorner weighed_corner(const PackedFacade& facade, FacadeLookup& lookup,
                             std::span<const std::uint32_t> shown, const Opinions& opinions,
                             std::size_t corner) {

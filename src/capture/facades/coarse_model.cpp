@@ -273,7 +273,7 @@ void join_corners(std::vector<Piece>& walls, const Photographed& place) {
   for (std::size_t i = 0; i < walls.size(); ++i) walls[i].along = joined[i];
 }
 
-/// Along a roof's v, where its plane crosses that of a wall below its middle; nothing where they do not
+/// Place along a roof's v where its plane crosses that of a wall below its middle; nothing where they do not
 /// belong together.
 std::optional<double> crossing(const Piece& roof, const Piece& wall) {
   const double overlap =
@@ -372,7 +372,7 @@ std::vector<glm::dvec2> convex_hull(std::vector<glm::dvec2> points) {
   return hull;
 }
 
-/// Of corners that lie within `tolerance` of each other one: where walls meet, each of them has one there.
+/// Merges corners that lie within `tolerance` of each other: where walls meet, each of them has one there.
 std::vector<glm::dvec2> apart(const std::vector<glm::dvec2>& polygon, double tolerance) {
   std::vector<glm::dvec2> kept;
   for (const glm::dvec2 p : polygon)

@@ -45,7 +45,7 @@ Bounds solid_bounds(const PackedFacade& facade) {
   return bounds;
 }
 
-/// What facades made of one packed file share.
+/// Data shared by facades made of one packed file.
 struct LoadedFacade {
   FacadeTextures textures;
   ViewChooser chooser;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t slot_bytes = 4 * (64 * 64 + 32 * 32 + 16 * 16);
 constexpr std::array<std::size_t, tile_levels> level_begin{0, 4 * 64 * 64, 4 * (64 * 64 + 32 * 32)};
 
-/// Of a point in a triangle's plane: the weights of its second and third corner.
+/// Weights of the second and third corner of a triangle at a point of its plane.
 glm::vec2 barycentric_of(const PackedFacade& facade, std::size_t triangle, glm::dvec3 point) {
   const glm::vec3* c = facade.corners.data() + 3 * triangle;
   const glm::dvec3 u(c[1] - c[0]), v(c[2] - c[0]), p = point - glm::dvec3(c[0]);

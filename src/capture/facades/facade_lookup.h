@@ -17,7 +17,8 @@ namespace parvis::facades {
 class FacadeTexels {
  public:
   explicit FacadeTexels(const PackedFacade& facade);
-  /// As the hardware filters: bilinear within two levels, and between them. `at` in texels of level 0.
+  /// A sample as the hardware filters: bilinear within two levels, and between them. `at` in texels of level
+  /// 0.
   glm::vec4 at(int slot, glm::vec2 at, float level) const;
 
  private:
@@ -29,7 +30,7 @@ class FacadeTexels {
 class TileAlphas {
  public:
   explicit TileAlphas(const PackedFacade& facade);
-  /// As FacadeTexels::at of level 0; 1 of tiles that are not mixed.
+  /// A sample as FacadeTexels::at of level 0; 1 of tiles that are not mixed.
   float at(int slot, glm::vec2 at) const;
 
  private:
@@ -37,7 +38,7 @@ class TileAlphas {
   std::vector<std::int32_t> of_slot_;  ///< which of them is a slot's; -1: none
 };
 
-/// What two photographs weigh at a corner of a triangle: sRGB = of_first * the first one's stored colour +
+/// Weights of two photographs at a corner of a triangle: sRGB = of_first * the first one's stored colour +
 /// of_second * the second one's + rest.
 struct ChosenCorner {
   glm::vec4 at{0.0f};  ///< where they are looked up: of the first x, y; of the second z, w (facade_stored)
@@ -46,8 +47,8 @@ struct ChosenCorner {
 /// A triangle whose photographs are chosen, see chosen_triangle.h.
 struct ChosenTriangle {
   std::array<ChosenCorner, 3> corners;
-  /// Of the first photograph x, y, of the second z, w: a tile, and 0; or the first of a layer's tiles, and
-  /// how many it has in a row.
+  /// Tiles of the first photograph x, y, of the second z, w: a tile, and 0; or the first of a layer's tiles,
+  /// and how many it has in a row.
   glm::ivec4 tiles{0};
   glm::vec2 pixel_sizes{0.0f};  ///< of the two photographs on the triangle, log2 of world units
 };
@@ -90,11 +91,11 @@ class FacadeLookup {
 
  public:
   using Opinion = FacadeOpinion;
-  /// What a layer says of a point that is seen from `to_eye` (unit), where a pixel is `pixel_m` wide.
+  /// A layer's opinion about a point that is seen from `to_eye` (unit), where a pixel is `pixel_m` wide.
   Opinion opinion(std::uint32_t layer, glm::vec3 position, glm::vec3 to_eye, float pixel_m) {
     return facade_opinion(int(layer), position, to_eye, pixel_m);
   }
-  /// Of a layer that says nothing.
+  /// The opinion of a layer that says nothing.
   static Opinion no_opinion_at_all() {
     return {no_opinion, MAX_PENALTY, 0.0f, 0.0f, 0.0f, vec2(0.0f), 0, 0, 0};
   }
@@ -110,8 +111,8 @@ class FacadeLookup {
   std::vector<std::size_t> first_depths_;
 };
 
-/// What `view` sees of the facade: sRGB (0..1) with alpha 0 where there is nothing. `model` is the one that
-/// was packed.
+/// The facade in `view`: sRGB (0..1) with alpha 0 where there is nothing. `model` is the one that was
+/// packed.
 ImageF view_of_facade(const PackedFacade& facade, const FacadeTexels& texels, const View& view);
 /// The same where it is known what the view sees of `model_of(facade)`. `chosen`: of a ViewChoice, or none.
 ImageF view_of_facade(const PackedFacade& facade, const FacadeTexels& texels, const View& view,

@@ -27,8 +27,8 @@ std::vector<std::uint32_t> layers_of_pixels(const PlaceLayers& place, std::size_
   return layers;
 }
 
-/// Per pixel: shows the backdrop, more than `margin` pixels away from what lies before it, by chessboard
-/// steps in two passes (Rosenfeld and Pfaltz 1966).
+/// Flags of pixels that show the backdrop, more than `margin` pixels away from what lies before it, by
+/// chessboard steps in two passes (Rosenfeld and Pfaltz 1966).
 std::vector<char> open_backdrop(const LayerModel& model, const ItemBuffer& seen, int margin) {
   const PixelBox box{0, 0, seen.width, seen.height};
   std::vector<int> distance(seen.triangles.size(), 0);
@@ -79,7 +79,7 @@ void add_depths(const LayerModel& model, const ItemBuffer& seen, const View& vie
     }
 }
 
-/// For each triangle the layers that hold it; equal lists are stored once.
+/// Adds the layers that hold each triangle; equal lists are stored once.
 void add_candidates(const PlaceLayers& place, const std::vector<std::vector<std::uint32_t>>& items,
                     const std::vector<std::uint32_t>& first_layer, PackedFacade& facade) {
   std::map<std::vector<std::uint32_t>, std::uint32_t> known;

@@ -103,10 +103,10 @@ gl::Texture photo_texture(const PackedFacade& facade) {
   return texture;
 }
 
-/// What is taken in and given up: a row of slots of a page.
+/// The unit that is taken in and given up: a row of slots of a page.
 constexpr int slots_per_strip = slots_across, strips_per_page = slots_per_page / slots_per_strip;
 
-/// Per photograph: the slots of its tiles, ascending.
+/// The slots of each photograph's tiles, ascending.
 std::vector<std::vector<std::uint32_t>> slots_of_photos(const PackedFacade& facade) {
   std::vector<std::vector<std::uint32_t>> slots(facade.photos.size());
   for (const PackedLayer& layer : facade.layers)

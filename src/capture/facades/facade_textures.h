@@ -63,9 +63,9 @@ class FacadeTextures {
   bool follow(std::span<const glm::vec3> eyes);
   /// PackedFacade::tiles with the slots that hold them now; 0 where none does.
   std::span<const std::uint32_t> resident_tiles() const { return resident_tiles_; }
-  /// Per photograph: 1 where its tiles are in graphics memory.
+  /// A flag per photograph: 1 where its tiles are in graphics memory.
   const std::vector<char>& resident() const { return residency_.resident(); }
-  /// Of the tiles, as OpenGL has allocated it.
+  /// Memory of the tiles as OpenGL has allocated it, bytes.
   std::uint64_t texture_bytes() const;
   /// Whether graphics memory holds tiles as blocks, as OpenGL says.
   bool holds_blocks() const;

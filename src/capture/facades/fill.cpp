@@ -30,7 +30,7 @@ void set_colour(Filled& filled, std::size_t layer, int x, int y, glm::vec3 srgb,
   source_of(filled, layer, x, y) = std::uint8_t(source);
 }
 
-/// What the photograph shows of each layer, less a rim next to what hides it.
+/// Marks the pixels of each layer that the photograph shows, less a rim next to whatever hides it.
 void mark_seen(const LayersOfModel& layers, int rim, Filled& filled) {
   for (std::size_t l = 0; l < layers.layered.layers.size(); ++l) {
     const Image8& mask = layers.layered.masks[l];

@@ -10,7 +10,7 @@
 
 namespace parvis::facades {
 
-/// What became of a filled layer.
+/// The state of a filled layer.
 enum class Filling : std::uint8_t { none, proposal, accepted, refused };
 inline constexpr const char* filling_names[] = {"none", "proposal", "accepted", "refused"};  ///< in files
 

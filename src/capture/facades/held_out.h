@@ -26,12 +26,12 @@ std::vector<PreparedPhoto> prepared_as_layers(const std::vector<photographs::Pho
 /// The picture with those pixels alone that layers colour: proposed colours become transparent.
 Image8 coloured_by_layers(Image8 shown, const std::vector<ColourSource>& sources);
 
-/// What a method shows of a view.
+/// A view as a method shows it.
 struct MethodView {
   std::string method;  ///< "layers", or a baseline's name (baselines.h)
   Image8 picture;      ///< sRGB RGBA; alpha 0 where the method has no colour of photographs
 };
-/// Of the layers, then of each baseline. `facade` is the place, packed.
+/// Views by the layers, then by each baseline. `facade` is the place, packed.
 std::vector<MethodView> views_of_methods(const PlaceLayers& place, const PackedFacade& facade,
                                          const std::vector<PreparedPhoto>& prepared, const View& view);
 

@@ -12,7 +12,7 @@
 namespace parvis::facades {
 namespace {
 
-/// What two boxes save when they become one.
+/// Pixels saved when two boxes become one.
 std::int64_t saving(const PixelBox& a, const PixelBox& b, int min_side) {
   return texture_area(a, min_side) + texture_area(b, min_side) - texture_area(united(a, b), min_side);
 }

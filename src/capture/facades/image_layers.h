@@ -12,7 +12,7 @@
 
 namespace parvis::facades {
 
-/// Of a photograph, in whole pixels from its top left.
+/// A box of a photograph, in whole pixels from its top left.
 struct PixelBox {
   int x = 0, y = 0, width = 0, height = 0;
 
@@ -66,7 +66,7 @@ void distrust(const ImageF& trust, LayeredView& layered);
 struct Frustum {
   double x_min, x_max, y_min, y_max;
 };
-/// Of a whole picture whose view may have its principal point anywhere.
+/// The frustum of a whole picture whose view may have its principal point anywhere.
 Frustum frustum_of(const View& view);
 /// The sheared frustum of a box of a picture (figure 3.12), for boxes counted from the picture's top. The
 /// rows for y use h and h_i; the thesis prints w and w_i there, which is a slip: a layer lower than wide

@@ -68,7 +68,7 @@ double side(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
   return is_swapped ? -value : value;
 }
 
-/// Of two triangles with a common edge exactly one owns a centre on it.
+/// Exactly one of two triangles with a common edge owns a centre on it.
 bool owns_edge(const glm::dvec2& a, const glm::dvec2& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); }
 
 /// Covers the outline p? It is convex; `turn` is +1 or -1 as it runs.

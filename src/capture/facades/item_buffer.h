@@ -42,7 +42,7 @@ bool has_layer_pixel(const LayerModel& model, const Fragment& fragment, std::spa
 
 inline constexpr std::uint32_t no_triangle_seen = ~0u;
 
-/// What a view sees first.
+/// The nearest surface in each pixel of a view.
 struct ItemBuffer {
   int width = 0, height = 0;
   std::vector<std::uint32_t> triangles;  ///< per pixel; no_triangle_seen: nothing

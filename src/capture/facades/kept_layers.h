@@ -28,7 +28,8 @@ class LayerKeeper {
   /// Keeps them. Errors name the file.
   Status keep_found(const PlaceLayers& place, std::span<const PreparedPhoto> prepared) const;
 
-  /// What the layers of a photograph were filled with, its layers and original pixels being known.
+  /// The pixels with which the layers of a photograph were filled, its layers and original pixels being
+  /// known.
   std::optional<Filled> read_filled(const PlaceLayers& place, std::size_t photo, bool fills) const;
   /// Keeps it. Errors name the file.
   Status keep_filled(const PlaceLayers& place, std::size_t photo, bool fills) const;

@@ -21,7 +21,7 @@ struct EditedPixel {
   std::array<std::uint8_t, 4> rgba{};
 };
 
-/// Of one object of the model in one photograph.
+/// Edits of one object of the model in one photograph.
 struct ObjectEdits {
   std::string object;
   std::string layer;  ///< that it was painted on, for messages

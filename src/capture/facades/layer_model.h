@@ -48,8 +48,8 @@ struct LayerObject {
   /// objects are seen from both sides.
   bool is_closed = false;
   bool is_backdrop = false;  ///< see backdrop_name
-  /// Of more faces than are worth a layer each (a scan, a relief): it is one layer, of what each pixel sees
-  /// of it first, and what it hides of itself is known by depth.
+  /// An object of more faces than are worth a layer each (a scan, a relief) is one layer of its nearest
+  /// surface in each pixel; the parts that it hides of itself are known by depth.
   bool is_dense = false;
 };
 
@@ -63,7 +63,7 @@ struct LayerModel {
   double size() const;  ///< length of the diagonal of the bounds
 };
 
-/// What the model is, and what was left out of it.
+/// The model, and a note of each thing left out of it.
 struct LayerModelResult {
   LayerModel model;
   Errors warnings;  ///< an entry for each object with triangles that are degenerate or lie twice in the model

@@ -31,8 +31,8 @@ void dilate(LayerPicture& picture) {
   }
 }
 
-/// What lies behind other surfaces, of the backdrop, is in no layer but may be looked up: alpha 0 says that
-/// nothing is known.
+/// Hidden parts of the backdrop are in no layer but may be looked up: alpha 0 says that nothing is known
+/// there.
 void hide_rest(LayerPicture& picture) {
   for (std::size_t i = 0; i < picture.is_own.size(); ++i)
     if (!picture.is_own[i])

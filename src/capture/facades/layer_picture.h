@@ -10,10 +10,10 @@ namespace parvis::facades {
 
 inline constexpr int dilation_rings =
     6;  ///< pixels beyond a surface's edge that repeat it: filters and mipmaps
-/// Of pixels that were filled, in mixed tiles.
+/// Alpha of pixels that were filled, in mixed tiles.
 inline constexpr std::uint8_t unseen_alpha = 191;
-/// Of pixels of which nothing is known, in mixed tiles: hidden parts of the backdrop, and those of layers
-/// whose proposals were refused.
+/// Alpha of unknown pixels in mixed tiles: hidden parts of the backdrop, and those of layers whose proposals
+/// were refused.
 inline constexpr std::uint8_t unknown_alpha = 0;
 
 /// A layer as it is stored, with what is needed of it.
@@ -35,9 +35,9 @@ inline std::size_t at(const PixelBox& box, int x, int y) {
 /// tiles.
 PixelBox on_tile_grid(const PixelBox& box);
 
-/// Per layer and pixel of its box: 1 where the layer has to be stored because this photograph shows it, or
-/// because no photograph does and this one has the finest pixels of it. `items`: of each photograph the item
-/// of each triangle.
+/// A picture per layer with a flag per pixel of its box: 1 where the layer has to be stored because this
+/// photograph shows it, or because no photograph does and this one has the finest pixels of it. `items`: of
+/// each photograph the item of each triangle.
 std::vector<Image8> needed_pixels(const PlaceLayers& place,
                                   const std::vector<std::vector<std::uint32_t>>& items, std::size_t photo);
 

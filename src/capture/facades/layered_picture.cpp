@@ -64,7 +64,7 @@ Image8 part_in(const PsdLayer& layer, const PixelBox& box, bool uses_mask) {
   return part;
 }
 
-/// What an editor shows of a layer and is not read back.
+/// Names the effects of an editor on a layer that are not read back.
 std::string not_read(const PsdLayer& layer) {
   std::string what;
   if (layer.blend != "norm") what += fmt::format("its blend mode \"{}\", ", layer.blend);

@@ -28,7 +28,7 @@ LayerPixels original_pixels(const Image8& photograph, const LayeredView& layered
 PsdPicture layered_picture(const Image8& photograph, const LayeredView& layered, const LayerPixels& pixels,
                            const std::vector<float>& depths);
 
-/// What an edited picture holds of the layers that were written.
+/// The layers that were written, as an edited picture holds them.
 struct ReadLayers {
   LayerPixels pixels;           ///< of every image layer; as written where the picture lacks it
   std::vector<bool> was_found;  ///< per image layer

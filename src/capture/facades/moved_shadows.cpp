@@ -48,7 +48,7 @@ float median(std::vector<float>& values) {
   return *middle;
 }
 
-/// What a cell's light has to be multiplied by to be that of most photographs, as a logarithm; 0: nothing.
+/// Logarithm of the factor that turns a cell's light into that of most photographs; 0: it stays.
 float log_gain(std::span<const PreparedPhoto> photos, std::span<const ImageF> cells, std::size_t own,
                glm::vec3 own_colour, glm::dvec3 point) {
   std::array<std::vector<float>, 3> seen;

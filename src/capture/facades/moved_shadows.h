@@ -9,7 +9,7 @@
 
 namespace parvis::facades {
 
-/// Per photograph one value per pixel: what its linear colours are to be multiplied by, 1 where nothing
+/// Pictures, one per photograph, of the factor by which linear colours are to be multiplied, 1 where nothing
 /// moved. `photos` are balanced. A shadow is where a photograph is darker or brighter than the median of the
 /// three or more that see the point, by one factor for all channels, over more than a few pixels; its edge is
 /// that of the photograph's own picture (guided filter, He, Sun and Tang 2013, on a coarse grid as in He and

@@ -70,7 +70,7 @@ bool cut_by_plane_of(LayerModel& model, std::uint32_t face, std::uint32_t by, gl
   return cut_face(model, face, plane.normal, plane.offset, tolerance_at(eye, corners));
 }
 
-/// By the planes through the eye and the edges of `by`.
+/// Cuts a face by the planes through the eye and the edges of `by`.
 bool cut_by_outline_of(LayerModel& model, std::uint32_t face, std::uint32_t by, glm::dvec3 eye) {
   const auto corners = model.triangles[triangles_of(model, by).front()].corners;
   for (std::size_t k = 0; k < 3; ++k) {

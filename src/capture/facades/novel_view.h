@@ -22,7 +22,7 @@ struct BlendSettings {
   float max_contradiction = 1.0f;
 };
 
-/// What one photograph says about a point.
+/// One photograph's opinion about a point.
 struct Opinion {
   std::uint32_t photo = 0;
   float penalty = 0.0f;
@@ -38,7 +38,7 @@ std::vector<Opinion> opinions(std::span<const PreparedPhoto> photos, const Blend
 /// The blend of the best; alpha 0 where no photograph sees the point or the best contradict each other.
 glm::vec4 blended(std::span<const Opinion> sorted, int best, float max_contradiction);
 
-/// What `view` sees: linear RGBA, alpha 0 where there is no model or no photograph.
+/// The picture of `view`: linear RGBA, alpha 0 where there is no model or no photograph.
 ImageF novel_view(const LayerModel& model, const View& view, std::span<const PreparedPhoto> photos,
                   const BlendSettings& settings);
 

@@ -26,7 +26,7 @@ inline constexpr int tile_levels = 3;  ///< mipmaps
 inline constexpr std::size_t blocks_per_slot = (64 * 64 + 32 * 32 + 16 * 16) / 16;
 static_assert(tile_side == 64);
 
-/// Of a tile, in the lowest two bits of its entry.
+/// A tile's kind, in the lowest two bits of its entry.
 enum class TileKind : std::uint8_t {
   none,   ///< not stored
   seen,   ///< the photograph sees all of it
@@ -61,11 +61,11 @@ struct PackedLayer {
   int down() const { return (box.height + tile_inner - 1) / tile_inner; }
 };
 
-/// Of a corner about which no photograph says anything, and whose proposal was refused; known colours never
-/// are this one.
+/// The colour of a corner about which no photograph says anything, and whose proposal was refused; known
+/// colours never are this one.
 inline constexpr glm::u8vec3 no_colour{128, 128, 128};
 
-/// What a facade(...) node shows.
+/// A facade as a facade(...) node shows it.
 struct PackedFacade {
   std::vector<std::string> surfaces;               ///< names of the model's objects
   std::vector<glm::vec3> corners;                  ///< in the facade's frame, three per triangle
@@ -78,8 +78,9 @@ struct PackedFacade {
   std::vector<PackedLayer> layers;
   std::vector<std::uint32_t> tiles;  ///< TileKind, and the slot above it
   std::vector<Bc7Block> blocks;      ///< blocks_per_slot for each slot, level by level
-  /// Per photograph, depth_cells.x * depth_cells.y values row by row: how far the photograph sees in each
-  /// cell of depth_cell x depth_cell pixels, see encoded_depth. They tell what an object hides of itself.
+  /// Depths of each photograph, depth_cells.x * depth_cells.y values row by row: how far the photograph sees
+  /// in each cell of depth_cell x depth_cell pixels, see encoded_depth. They tell what an object hides of
+  /// itself.
   std::vector<std::uint16_t> depths;
 
   /// Found in the photographs when a scene shows the facade (find_shadows), and not kept in files: per
@@ -94,13 +95,13 @@ struct PackedFacade {
   }
   /// Number of triangles, three corners each.
   std::size_t triangle_count() const { return corners.size() / 3; }
-  /// Of tiles that are stored.
+  /// Number of stored tiles.
   std::size_t slot_count() const { return blocks.size() / blocks_per_slot; }
-  /// Of all textures and tables, as graphics memory holds them.
+  /// Size of all textures and tables, as graphics memory holds them.
   std::size_t texture_bytes() const;
-  /// Of the photographs that they were made of, at 4 bytes per pixel.
+  /// Size of the photographs that they were made of, at 4 bytes per pixel.
   std::size_t photograph_bytes() const;
-  /// Of all surfaces, in the facade's frame.
+  /// Bounds of all surfaces, in the facade's frame.
   Bounds bounds() const;
 };
 
@@ -124,7 +125,7 @@ using PhotoRow = std::array<glm::vec4, 7>;
 PhotoRow photo_row(const PackedPhoto& photo, std::size_t first_depth);
 /// Where each photograph's depths begin.
 std::vector<std::size_t> first_depths(const PackedFacade& facade);
-/// What `facade_layer` of facade_lookup.glsl gives.
+/// The layer as `facade_layer` of facade_lookup.glsl returns it.
 glm::uvec4 layer_row(const PackedLayer& layer);
 
 }  // namespace parvis::facades

@@ -30,7 +30,7 @@ struct Packed {
     facade = packed_facade(place);
     for (const View& view : place.views) seen.push_back(item_buffer(place.model, view));
   }
-  /// What photograph `photo` sees at a pixel.
+  /// The object that photograph `photo` sees at a pixel.
   std::string object_at(std::size_t photo, int x, int y) const {
     const std::uint32_t triangle = seen[photo].triangles[seen[photo].index(x, y)];
     return place.model.objects[place.model.triangles[triangle].object].name;
@@ -85,7 +85,7 @@ std::size_t differing(const ImageF& a, const ImageF& b) {
   return count;
 }
 
-/// What is shown of a place that one photograph was taken of.
+/// A place of which one photograph was taken, packed.
 struct OnePhotograph {
   Photos input;
   PlaceLayers place = *place_layers({input.photos[2]}, street());

@@ -9,7 +9,7 @@
 
 namespace parvis::facades {
 
-/// What a step of the eye changes. The photographs that leave are given up before others enter.
+/// The changes by a step of the eye. The photographs that leave are given up before others enter.
 struct ResidencyChange {
   std::vector<std::uint32_t> leaving, entering;
 
@@ -26,7 +26,7 @@ class PhotoResidency {
   /// The photographs that are nearest to any of `eyes` (in the facade's frame) become resident, nearest
   /// first, up to the first that has no room; others stay as long as they are in nobody's way.
   ResidencyChange follow(std::span<const glm::vec3> eyes);
-  /// Per photograph: 1 where it is resident.
+  /// A flag per photograph: 1 where it is resident.
   const std::vector<char>& resident() const { return resident_; }
   /// Units in use, never more than max_units.
   std::size_t used_units() const { return used_; }

@@ -163,7 +163,7 @@ Errors paint(const LayerEdits& edits, std::size_t i, PlaceLayers& place) {
   return std::move(applied.messages);
 }
 
-/// What was painted in photograph `from`, as photograph `to` shows it; what was made transparent stays there.
+/// Paint of photograph `from` as photograph `to` shows it; pixels that were made transparent stay there.
 LayerEdits carried(const LayerEdits& edits, const PlaceLayers& place, std::size_t from, std::size_t to) {
   const View &a = place.views[from], &b = place.views[to];
   LayerEdits result;

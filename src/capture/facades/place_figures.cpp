@@ -50,7 +50,7 @@ class Sheet {
 
 double aspect_of(const View& view) { return double(view.width) / view.height; }
 
-/// What editors show where a layer is transparent.
+/// The pattern that editors show where a layer is transparent.
 Image8 checkerboard(const View& view) {
   Image8 board(view.width, view.height, 3);
   const int side = std::max(view.width / 80, 2);

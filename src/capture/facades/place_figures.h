@@ -31,7 +31,7 @@ Image8 coverage_figure(const PlaceLayers& place);
 struct Coverage {
   double seen_percent = 0.0, layered_percent = 0.0;
 };
-/// What the three photographs of coverage_figure see, and what their layers hold.
+/// Coverage by the three photographs of coverage_figure, and by their layers.
 Coverage coverage_of(const PlaceLayers& place);
 
 /// The photograph with the most image layers: the one whose figures show most.

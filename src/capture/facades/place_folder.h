@@ -38,11 +38,11 @@ struct PlaceSource {
 Result<PlaceSource> read_place(const std::filesystem::path& folder, std::vector<NamedMesh> meshes,
                                const std::vector<std::string>& left_out = {});
 
-/// In a FillingChoice, instead of a photograph: colours for what no photograph shows (PlaceLayers::surfaces).
-/// Its layers are the objects of the model.
+/// A FillingChoice's word in place of a photograph: colours for what no photograph shows
+/// (PlaceLayers::surfaces). Its layers are the objects of the model.
 inline constexpr const char* surfaces_choice = "surfaces";
 
-/// What an artist decided about proposals: per photograph and layer; "*" stands for all.
+/// An artist's decision about proposals, per photograph and layer; "*" stands for all.
 struct FillingChoice {
   std::string photograph = "*", layer = "*";
   Filling state = Filling::accepted;

@@ -21,8 +21,8 @@ struct PlaceLayers {
   std::vector<LayerPixels> originals;  ///< the photographs' own pixels
   std::vector<Balance> balances;
   std::vector<Filled> filled;
-  /// Per object of the model: the state of the colours that are proposed for what no photograph shows of it,
-  /// the last step of filling (surface_colours.h).
+  /// The state, per object of the model, of the colours proposed for parts that no photograph shows, the last
+  /// step of filling (surface_colours.h).
   std::vector<Filling> surfaces;
   Errors warnings;  ///< an entry per photograph that was left out, and those of visibility_layers
 

@@ -7,7 +7,7 @@
 
 namespace parvis::facades {
 
-/// What the stage made.
+/// Results of the stage.
 struct PlaceModel {
   CoarseModel planes;             ///< as proposed and corrected
   std::vector<NamedMesh> meshes;  ///< with reliefs

@@ -24,7 +24,7 @@ std::string state_of(const fs::path& file) {
   return fmt::format("{} {} {}\n", file.filename().string(), bytes, time.time_since_epoch().count());
 }
 
-/// Of the model and the cameras.
+/// Hash of the model and the cameras.
 ContentHash geometry_of(const PlaceSource& source) {
   ContentHash hash;
   for (const NamedMesh& named : source.meshes)
@@ -54,7 +54,7 @@ std::string recipe_of(const PlaceSource& source, const PlaceSettings& settings) 
   return text + fmt::format("model, cameras and choices {:016x}\n", hash.value());
 }
 
-/// With the state of what was made of it: a facade that came from elsewhere is packed again.
+/// The recipe with the state of its result: a facade that came from elsewhere is packed again.
 std::string packed_recipe_of(const PlaceSource& source, const PlaceSettings& settings) {
   return recipe_of(source, settings) + state_of(source.folder / "place.facade");
 }

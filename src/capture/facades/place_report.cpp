@@ -53,8 +53,8 @@ std::string photograph_row(const PlaceLayers& place, std::size_t i, const std::s
              stem);
 }
 
-/// Of each surface: how much of its area no photograph shows, and what became of the colours that are
-/// proposed for that.
+/// A row per surface: how much of its area no photograph shows, and the state of the colours proposed for
+/// that.
 std::string surface_rows(const PlaceLayers& place, const PackedFacade& facade) {
   std::vector<double> areas(facade.surfaces.size(), 0.0), without_photograph = areas;
   for (std::size_t t = 0; t < facade.triangle_count(); ++t) {

@@ -33,7 +33,7 @@ std::string camera_line(const std::string& name, const PackedPhoto& photo) {
 
 std::string name_of(const PackedPhoto& photo) { return fs::path(photo.name).stem().string(); }
 
-/// From between two photographs, toward the middle between what they look at.
+/// A camera between two photographs that looks at the middle between their subjects.
 PackedPhoto between(const PackedPhoto& a, const PackedPhoto& b) {
   PackedPhoto middle = a;
   middle.view.centre = 0.5 * (a.view.centre + b.view.centre);

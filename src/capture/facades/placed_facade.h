@@ -23,16 +23,17 @@ struct PlacedFacade {
   glm::mat4 world_from_facade{1.0f};
   float brightness = 1.0f;  ///< 1: the display shows the photographs as they are, whatever the exposure
   bool is_visible = true;
-  /// What is left of its light where other things of the scene cast a shadow on it; 1: they cast none.
+  /// The fraction of its light that is left where other things of the scene cast a shadow on it; 1: they cast
+  /// none.
   float kept_in_shadow = 1.0f;
-  /// What its tiles may take of graphics memory, bytes: see FacadeTextures. What is seen does not depend on
-  /// it as long as the nearest photographs fit.
+  /// Limit of its tiles' graphics memory, bytes: see FacadeTextures. The picture does not depend on it as
+  /// long as the nearest photographs fit.
   std::uint64_t max_texture_bytes = std::uint64_t(1) << 30;
 
   void hash(ContentHash& hash) const;
 };
 
-/// Of an artist's alpha: else nothing can be seen through.
+/// Holes come from an artist's alpha: else nothing can be seen through.
 bool has_holes(const PackedFacade& facade);
 
 /// Its triangles in their order, each with corners and a normal of its own.

@@ -10,8 +10,8 @@
 
 namespace parvis::facades {
 
-/// What a plane is part of. A slope rises from the ground: stairs, a ramp, a bank. It is found as a roof; its
-/// foot on the ground distinguishes it (coarse_model.h).
+/// The kind of surface that a plane is part of. A slope rises from the ground: stairs, a ramp, a bank. It is
+/// found as a roof; its foot on the ground distinguishes it (coarse_model.h).
 enum class SurfaceKind { ground, wall, roof, slope };
 
 /// A plane { p : dot(normal, p) = offset } with the points that lie in it.

@@ -156,7 +156,7 @@ void window_sums(const std::vector<float>& values, int columns, int rows, std::v
   }
 }
 
-/// What one photograph shows at one height, ready for correlations.
+/// One photograph at one height, ready for correlations.
 struct Layer {
   std::vector<float> values, mean, deviation;  ///< deviation: negative where the window is not all shown
 };

@@ -29,7 +29,7 @@ struct SweptRectangle {
   double low = 0.0, high = 0.0;            ///< heights along the normal, world units
 };
 
-/// What the sweep found at each grid point, row by row (columns along u).
+/// The sweep's results at each grid point, row by row (columns along u).
 struct SweptHeights {
   std::vector<float> heights;    ///< world units along the normal
   std::vector<float> agreement;  ///< correlation of the photographs that agree best there, 0..1

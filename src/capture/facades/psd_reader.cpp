@@ -256,7 +256,7 @@ Status read_pixels(Reader& reader, LayerRecord& record, int bits, std::size_t& b
   return Done{};
 }
 
-/// What the groups around each layer do to it. `records`: bottom first, a group's end below its layers.
+/// Applies to each layer the groups around it. `records`: bottom first, a group's end below its layers.
 void apply_groups(std::vector<LayerRecord>& records) {
   std::vector<PsdLayer> around{PsdLayer{}};
   for (LayerRecord& record : std::views::reverse(records)) {

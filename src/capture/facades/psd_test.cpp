@@ -177,7 +177,8 @@ struct TestLayer {
   bool is_clipped = false, hides_all = false;
 };
 
-/// As editors write groups: bottom first, the end of a group below its layers, the group itself above them.
+/// A file with groups as editors write them: bottom first, the end of a group below its layers, the group
+/// itself above them.
 std::string psd_of(const std::vector<TestLayer>& layers) {
   std::string info, data;
   put(info, std::uint32_t(layers.size()), 2);

@@ -72,7 +72,7 @@ void rectangle(Bytes& bytes, const PixelBox& box) {
   for (const int v : {box.y, box.x, box.y + box.height, box.x + box.width}) bytes.u32(std::uint32_t(v));
 }
 
-/// Of UTF-8; what is none, or needs two units, becomes U+FFFD.
+/// UTF-16 of a text in UTF-8; bytes that are none, or need two units, become U+FFFD.
 std::u16string utf16(std::string_view text) {
   std::u16string units;
   for (std::size_t i = 0; i < text.size();) {

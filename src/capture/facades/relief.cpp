@@ -264,7 +264,7 @@ std::optional<SweptRectangle> certain_part(const SweptRectangle& rectangle, cons
   return part;
 }
 
-/// As fine as the limit of triangles allows.
+/// The mesh, as fine as the limit of triangles allows.
 Mesh limited_mesh(const Relief& relief, double tolerance) {
   Mesh mesh = mesh_of(relief, tolerance);
   while (mesh.triangle_count() > max_triangles) mesh = mesh_of(relief, tolerance *= 1.25);

@@ -20,7 +20,7 @@ constexpr std::size_t max_probes = 8;  ///< photographs, spread over all, that a
 constexpr int probe_width = 400;       ///< pixels: a point is in the right triangle or beside it
 constexpr double same_depth = 0.03;    ///< of a point and of the scan behind its pixel, as a share
 constexpr std::size_t min_scan_points = 50;
-/// Of the points before or behind the scan, those that lie on it: in a wrong frame a few do, too.
+/// The fraction of points before or behind the scan that must lie on it: in a wrong frame a few do, too.
 constexpr double min_share = 0.25;
 
 /// A small view of a photograph, and the points that it was found to show.

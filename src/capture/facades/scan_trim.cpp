@@ -17,8 +17,8 @@ namespace parvis::facades {
 namespace {
 
 constexpr float contradicted = 0.12f;  ///< of sRGB, in the channel that differs most
-/// Between the directions to two photographs that are compared: from the same place any surface agrees, and
-/// from the side real ones differ.
+/// Angles between the directions to two photographs that are compared: from the same place any surface
+/// agrees, and from the side real ones differ.
 constexpr double min_compared_angle_deg = 3.0, max_compared_angle_deg = 26.0;
 constexpr int smoothing_rounds = 8;   ///< in each a triangle takes the mean of its own and its neighbours'
 constexpr double crumb_share = 0.01;  ///< of a mesh's triangles
@@ -50,8 +50,9 @@ std::optional<float> contradiction_at(std::span<const PreparedPhoto> photos, std
   return *middle;
 }
 
-/// Per triangle, smoothed over its neighbours: leaves agree here and there though nothing is there. What no
-/// two photographs see takes what is beside it; 0 where nothing is known far around.
+/// Contradictions per triangle, smoothed over its neighbours: leaves agree here and there though nothing is
+/// there. A triangle that no two photographs see takes its neighbours' value; 0 where nothing is known far
+/// around.
 std::vector<float> contradictions(const Mesh& mesh, const JoinedTriangles& joined,
                                   std::span<const PreparedPhoto> photos, std::span<const ImageF> srgb) {
   std::vector<std::optional<float>> values(joined.triangles.size());

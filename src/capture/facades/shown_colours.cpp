@@ -5,7 +5,8 @@
 namespace parvis::facades {
 namespace {
 
-/// Of a pixel's colour: less than any display shows, and more than sums of floats are wrong by.
+/// The part of a pixel's colour that counts as none: less than any display shows, and more than rounding
+/// errors.
 constexpr float no_share = 1e-3f;
 
 View random_view(std::span<const View> cameras, Random& random) {

@@ -10,7 +10,7 @@
 
 namespace parvis::facades {
 
-/// Of a pixel.
+/// The source of a pixel's colour.
 enum class ColourSource : std::uint8_t {
   no_model,
   none,      ///< something of its colour is no_colour
@@ -23,7 +23,7 @@ class ShownColours {
  public:
   explicit ShownColours(const PackedFacade& facade);
   ShownColours(const ShownColours&) = delete;
-  /// Of each pixel, row by row.
+  /// Sources of all pixels, row by row.
   std::vector<ColourSource> sources(const View& view);
 
  private:

@@ -28,7 +28,7 @@ struct Stacks {
 Stacks distinct_stacks(const LayerModel& model, const View& view,
                        std::span<const std::uint32_t> item_of_triangle, std::uint32_t item_count);
 
-/// What hides what: hides[a] lists the items directly behind a in some stack, ascending; a itself where it
+/// Direct occlusion: hides[a] lists the items directly behind a in some stack, ascending; a itself where it
 /// covers a pixel twice in a row.
 std::vector<std::vector<std::uint32_t>> direct_occlusion(const std::vector<Stack>& stacks,
                                                          std::uint32_t item_count);

@@ -14,7 +14,7 @@ constexpr std::size_t max_known_colours = 2000;  ///< that unknown surfaces are 
 /// Mean of the nearest known colours, weighted by distance; no_colour where none is known.
 class NearestColours {
  public:
-  /// Of those triangles that `counts` holds for.
+  /// Takes the triangles for which `counts` holds.
   template <class Counts>
   NearestColours(const LayerModel& model, const TriangleColours& colours, Counts&& counts) {
     std::vector<std::size_t> known;
@@ -53,7 +53,7 @@ bool is_level(const LayerTriangle& triangle) {
   return std::abs(across.z) > min_cosine * glm::length(across);
 }
 
-/// What surfaces that are nowhere seen are coloured from.
+/// The colours of kinds of surfaces, from which surfaces that are nowhere seen are coloured.
 class ColoursOfKinds {
  public:
   ColoursOfKinds(const LayerModel& model, const TriangleColours& colours)

@@ -11,7 +11,7 @@ namespace parvis::facades {
 
 /// Mean colours of triangles, balanced sRGB.
 struct TriangleColours {
-  /// Of a model of so many triangles, none of which is known yet.
+  /// Colours of a model of so many triangles, none of which is known yet.
   explicit TriangleColours(std::size_t triangles)
       : sums(triangles, glm::dvec3(0.0)), counts(triangles, 0.0) {}
 

@@ -37,7 +37,7 @@ struct Courtyard {
   }
 };
 
-/// Of the first corner of a surface.
+/// The proposed colour of the first corner of a surface.
 glm::u8vec3 proposed(const PackedFacade& facade, const std::string& surface) {
   for (std::size_t t = 0; t < facade.triangle_count(); ++t)
     if (facade.surfaces[facade.surface_of_triangle[t]] == surface) return facade.fallback[3 * t];

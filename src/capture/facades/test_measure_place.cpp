@@ -24,7 +24,7 @@ void add(MethodFigures& figures, const Rephotography& judged, double share) {
   figures.covered_percent += share * judged.covered_percent;
 }
 
-/// Without any photograph: what is proposed for what no photograph shows is left.
+/// The facade without any photograph: colours proposed for unseen parts are left.
 PackedFacade without_photographs(PackedFacade facade) {
   for (glm::uvec2& list : facade.lists) list.y = 0;
   return facade;

@@ -15,8 +15,8 @@ namespace parvis::facades {
 struct MethodFigures {
   std::string method;  ///< "layers", or a baseline's name
   double psnr_cc_db = 0.0, rephoto = 0.0;
-  /// Of the pixels that show the model as it was given, those with a colour of photographs, which alone are
-  /// judged: of the layers proposed colours (surface_colours.h) do not count.
+  /// The pixels with a colour of photographs, which alone are judged, among those that show the model as it
+  /// was given: of the layers proposed colours (surface_colours.h) do not count.
   double covered_percent = 0.0;
 };
 

@@ -13,7 +13,7 @@
 
 namespace parvis::facades {
 
-/// At the origin, looking along world +y with z up; 90 degrees wide.
+/// A view at the origin that looks along world +y with z up; 90 degrees wide.
 inline View test_view(int width = 128, int height = 128, glm::dvec3 centre = {0, 0, 0}) {
   View view;
   view.camera_from_world = glm::transpose(glm::dmat3(1, 0, 0, 0, 0, -1, 0, 1, 0));  // rows: x, -z, y

@@ -49,7 +49,8 @@ inline std::vector<NamedMesh> fine_street(int cells) {
   return fine;
 }
 
-/// What a view sees of a model whose points have these linear colours, as a PNG file of an exposure.
+/// The photograph that a view takes of a model whose points have these linear colours, as a PNG file of an
+/// exposure.
 inline photographs::Photograph photograph_of(const std::vector<NamedMesh>& meshes,
                                              const std::function<glm::vec3(glm::dvec3)>& colour,
                                              const TestFolder& folder, const std::string& name,
@@ -72,7 +73,7 @@ inline photographs::Photograph photograph_of(const std::vector<NamedMesh>& meshe
   return photo;
 }
 
-/// What a view sees of the street, as a PNG file, each with an exposure of its own.
+/// The photograph that a view takes of the street, as a PNG file, each with an exposure of its own.
 inline photographs::Photograph photograph(const TestFolder& folder, const std::string& name, const View& view,
                                           float exposure) {
   return photograph_of(street(), pattern, folder, name, view, exposure);
@@ -89,7 +90,7 @@ struct Photos {
   }
 };
 
-/// What a view truly sees, 8-bit sRGB.
+/// The true picture of a view, 8-bit sRGB.
 inline Image8 true_picture(const View& view) {
   const LayerModel model = model_of(street());
   const ItemBuffer seen = item_buffer(model, view);

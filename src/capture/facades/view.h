@@ -18,12 +18,12 @@ struct View {
   glm::dvec3 to_camera(glm::dvec3 position_in_world) const {
     return camera_from_world * (position_in_world - centre);
   }
-  /// Of a point in the camera's frame with z > 0.
+  /// The pixel of a point in the camera's frame with z > 0.
   glm::dvec2 to_pixel(glm::dvec3 position_in_camera) const {
     return {fx * position_in_camera.x / position_in_camera.z + cx,
             fy * position_in_camera.y / position_in_camera.z + cy};
   }
-  /// Through a point of the picture, in the camera's frame, with z = 1.
+  /// The ray through a point of the picture, in the camera's frame, with z = 1.
   glm::dvec3 ray_in_camera(glm::dvec2 pixel) const { return {(pixel.x - cx) / fx, (pixel.y - cy) / fy, 1.0}; }
   /// The point at `depth` behind a point of the picture.
   glm::dvec3 to_world(glm::dvec2 pixel, double depth) const {

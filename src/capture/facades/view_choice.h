@@ -21,8 +21,8 @@ struct ViewChoice {
   std::vector<glm::uvec2> lists;  ///< per triangle: first and number, counted over the facade's candidates
                                   ///< and, after them, these:
   std::vector<std::uint32_t> candidates;  ///< layers
-  /// Per triangle, where its photographs and weights are chosen once for all its pixels. None at all: every
-  /// pixel compares photographs.
+  /// The photographs and weights of each triangle for which they are chosen once for all its pixels. None at
+  /// all: every pixel compares photographs.
   std::vector<std::optional<ChosenTriangle>> triangles;
 };
 
@@ -31,10 +31,10 @@ class ViewChooser {
  public:
   explicit ViewChooser(const PackedFacade& facade);
 
-  /// For an eye in the facade's frame that sees `pixel_angle` radians per pixel. The best three photographs
-  /// at a triangle's centre; of a large triangle, at points all over it; all where fewer than two show it, or
-  /// where it fills much of the view.
-  /// `resident`: per photograph, 0 where its tiles are not at hand, so that it is not chosen; empty: all are.
+  /// The choice for an eye in the facade's frame that sees `pixel_angle` radians per pixel. The best three
+  /// photographs at a triangle's centre; of a large triangle, at points all over it; all where fewer than two
+  /// show it, or where it fills much of the view. `resident`: per photograph, 0 where its tiles are not at
+  /// hand, so that it is not chosen; empty: all are.
   ViewChoice choice(glm::vec3 eye, float pixel_angle, std::span<const char> resident = {}) const;
   /// All photographs that hold each triangle.
   ViewChoice all() const { return {facade_.lists, {}, {}}; }

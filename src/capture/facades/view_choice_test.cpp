@@ -29,7 +29,7 @@ PackedFacade with(const ViewChoice& choice, PackedFacade facade) {
   return facade;
 }
 
-/// What a view shows of the choice for its eye.
+/// The picture of a view by the choice for its eye.
 ImageF shown(const ViewChoice& choice, const PackedFacade& facade, const FacadeTexels& texels,
              const View& view) {
   return view_of_facade(with(choice, facade), texels, view, item_buffer(model_of(facade), view),

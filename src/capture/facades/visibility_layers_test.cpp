@@ -37,7 +37,7 @@ std::string layers_of(const std::vector<NamedMesh>& meshes, const View& view = t
   return layers_as_text(model, visibility_layers(model, view, "test"));
 }
 
-/// What a layer is: at no pixel does an item lie behind an item of its own or a later layer.
+/// The definition of layers: at no pixel does an item lie behind an item of its own or a later layer.
 void expect_an_order(const LayerModel& model, const View& view, const VisibilityLayers& visibility) {
   const auto item_of = item_of_triangle(model, visibility.items);
   std::vector<std::size_t> layer_of(visibility.items.size(), visibility.layers.size());

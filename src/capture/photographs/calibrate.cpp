@@ -30,8 +30,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t min_matches = 20;  ///< of a pair; COLMAP needs 15 that agree by one geometry
 constexpr int work_version = 2;          ///< to be raised where the same photographs give other work
-/// Of COLMAP's stages that draw numbers or add in the order of their threads: the same photographs must give
-/// the same cameras.
+/// Number of threads of COLMAP's stages that draw numbers or add in the order of their threads: the same
+/// photographs must give the same cameras.
 constexpr const char* one_thread = "1";
 constexpr const char* max_trials = "3000";  ///< to find a pair's geometry: enough where a third is right
 
@@ -117,7 +117,7 @@ Status prepare(const CalibrationJob& job, const Pictures& pictures, const WorkFo
   return write_file(work.inputs(), inputs);
 }
 
-/// What two pictures have in common, as COLMAP imports it.
+/// The matches of two pictures as COLMAP imports them.
 std::string match_list(const PictureFeatures& a, const PictureFeatures& b) {
   const std::vector<FeatureMatch> matches = matching_features(a, b);
   if (matches.size() < min_matches) return "";
@@ -282,7 +282,7 @@ void tell_orientations(const Pictures& pictures, PhotographSet& set) {
   }
 }
 
-/// What is suspicious though it was calculated.
+/// Warns of results that are suspicious though they were calculated.
 void check_result(const CalibrationJob& job, LoadedSet& loaded) {
   constexpr double max_focal_difference = 0.02;  // of the two focal lengths of one lens: pixels are square
   if (loaded.set.photographs.size() == 2)

@@ -33,7 +33,7 @@ class Bytes {
     if (!failed_ && count > (bytes_.size() - at_) / item_bytes) failed_ = true;
     return failed_ ? 0 : std::size_t(count);
   }
-  /// Up to and without the next zero.
+  /// The text up to the next zero, without it.
   std::string take_text() {
     const std::size_t end = bytes_.find('\0', at_);
     if (failed_ || end == std::string_view::npos || end - at_ > max_name_bytes) return failed_ = true, "";

@@ -53,7 +53,7 @@ struct Keypoints {
   std::vector<float> sizes;
 };
 
-/// Of x, y, then size and angle, or an affine shape a11 a12 a21 a22.
+/// Keypoints of rows of x, y, then size and angle, or an affine shape a11 a12 a21 a22.
 Keypoints keypoints_of(std::span<const std::uint8_t> bytes, std::size_t columns) {
   Keypoints keypoints;
   if (columns != 4 && columns != 6) return keypoints;

@@ -24,8 +24,8 @@ ColmapProgress colmap_progress(const std::filesystem::path& database);
 /// or whose entries are damaged, have none.
 std::vector<PictureFeatures> picture_features(const std::filesystem::path& database);
 
-/// For each picture the most features that agree, by one geometry, with another picture; 0 where it agrees
-/// with none.
+/// The number of features of each picture that agree best, by one geometry, with another picture; 0 where it
+/// agrees with none.
 std::map<std::string, int> best_agreement(const std::filesystem::path& database);
 
 /// Numbers the pictures, and their features, by the order of their names. COLMAP numbers them as its threads

@@ -10,7 +10,7 @@
 
 namespace parvis::photographs {
 
-/// What COLMAP is to work on.
+/// Input of COLMAP's work on features.
 struct FeatureJob {
   std::filesystem::path pictures;  ///< folder of the photographs
   std::filesystem::path list;      ///< file that names the photographs at work, one per line; is written

@@ -45,7 +45,7 @@ struct ColmapPoint {
   std::vector<Sighting> track;
 };
 
-/// All of a model, as its files order it.
+/// A whole model, as its files order it.
 struct ColmapModel {
   std::map<std::uint32_t, Lens> cameras;  ///< by CAMERA_ID
   std::vector<ColmapImage> images;

@@ -17,7 +17,7 @@ struct Fit {
 
 inline constexpr int min_shared_points = 12;
 
-/// In the order of the set.
+/// Fits of all photographs, in the order of the set.
 std::vector<Fit> fits(const PhotographSet& set);
 
 /// A message for each photograph whose camera does not fit: no neighbours, hardly any points of those that

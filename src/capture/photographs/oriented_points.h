@@ -14,7 +14,7 @@ struct Eigensystem {
   glm::dvec3 values;
   glm::dmat3 vectors;  ///< columns, in the order of the values
 };
-/// Of a symmetric matrix with finite entries.
+/// The eigensystem of a symmetric matrix with finite entries.
 Eigensystem eigen_of(glm::dmat3 m);
 
 /// A point with the plane of its neighbours.

@@ -51,8 +51,9 @@ struct SparsePoint {
 struct PhotographSet {
   std::vector<Photograph> photographs;  ///< ordered by name
   std::vector<SparsePoint> points;
-  /// From the frame in which the cameras were given, or found, to the world of this set: a rotation and a
-  /// scale, kept by `transform` (alignment.h). What was measured in that frame, as a scan, follows by it.
+  /// The transform from the frame in which the cameras were given, or found, to the world of this set: a
+  /// rotation and a scale, kept by `transform` (alignment.h). Data measured in that frame, as a scan, follow
+  /// by it.
   glm::dmat4 world_from_given{1.0};
 };
 

@@ -21,7 +21,8 @@ bool stands_alone(unsigned char marker) {
   return (marker >= 0xd0 && marker <= 0xd7) || marker == 0x01 || marker == 0xff;
 }
 
-/// Behind the entropy-coded data that begins at `at`: the next marker that is no stuffed zero and no restart.
+/// The place behind the entropy-coded data that begins at `at`: the next marker that is no stuffed zero and
+/// no restart.
 std::size_t after_scan(std::string_view bytes, std::size_t at) {
   for (at = bytes.find('\xff', at); at != std::string_view::npos && at + 1 < bytes.size();
        at = bytes.find('\xff', at + 1))

@@ -20,7 +20,8 @@ struct PictureHeader {
   std::string taken;  ///< EXIF, by the camera's clock: "2026:06:21 14:15:00"; empty: not given
 };
 
-/// Of a JPEG (ITU-T T.81, annex B; EXIF: CIPA DC-008) or PNG. Errors name the file: neither of them, damaged.
+/// The header of a JPEG (ITU-T T.81, annex B; EXIF: CIPA DC-008) or PNG. Errors name the file: neither of
+/// them, damaged.
 Result<PictureHeader> read_picture_header(const std::filesystem::path& file);
 /// The same of a file's bytes, or of its first ones; `name` stands in errors.
 Result<PictureHeader> parse_picture_header(std::string_view bytes, const std::string& name);

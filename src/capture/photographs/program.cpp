@@ -18,7 +18,7 @@ namespace {
 constexpr int cannot_start = 127;
 constexpr std::size_t shown_bytes = 600;
 
-/// In the child: only calls that are safe after a fork in a program with threads.
+/// Runs in the child: only calls that are safe after a fork in a program with threads.
 [[noreturn]] void become(char* const* arguments, char* const* environment, int out) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (dup2(out, STDOUT_FILENO) < 0 || dup2(out, STDERR_FILENO) < 0) _exit(cannot_start);

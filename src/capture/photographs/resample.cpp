@@ -7,7 +7,7 @@
 namespace parvis::photographs {
 namespace {
 
-/// Of the four samples around a place at `t` in [0, 1) behind the second.
+/// Weights of the four samples around a place at `t` in [0, 1) behind the second.
 std::array<float, 4> spline_weights(float t) {
   return {((-0.5f * t + 1.0f) * t - 0.5f) * t, (1.5f * t - 2.5f) * t * t + 1.0f,
           ((-1.5f * t + 2.0f) * t + 0.5f) * t, (0.5f * t - 0.5f) * t * t};

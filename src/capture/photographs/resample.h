@@ -7,7 +7,7 @@
 
 namespace parvis::photographs {
 
-/// What lies beside a picture: its last column again, or, of a full turn, its first.
+/// The pixels beside a picture: its last column again, or, of a full turn, its first.
 enum class Border { clamped, wraps_around };
 
 /// The picture's four channels at `pixel` (centres at +0.5), by Catmull and Rom's spline over 4 x 4 pixels,

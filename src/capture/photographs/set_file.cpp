@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 
 constexpr const char* file_name = "photographs.json";
 
-/// As it is stored: relative to `folder` where there is such a path.
+/// The path as it is stored: relative to `folder` where there is such a path.
 std::string stored(const fs::path& path, const fs::path& folder) {
   if (path.empty()) return "";
   const fs::path relative =
@@ -58,7 +58,7 @@ struct SetJson {
     const std::size_t at = name_of(entry) ? text.find(Json(*name_of(entry)).dump()) : std::string::npos;
     return at == std::string::npos ? FileLocation{file, 0, 0} : place_of(at);
   }
-  /// What the file says of each photograph.
+  /// The file's entry of each photograph.
   Json entries() const { return json.value("photographs", Json::array()); }
   static std::optional<std::string> name_of(const Json& entry) {
     if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string()) return std::nullopt;
@@ -122,7 +122,7 @@ Json rows_of(const glm::dmat4& matrix) {
   return rows;
 }
 
-/// What `rows_of` made; nothing where it is something else.
+/// The matrix from rows as `rows_of` writes them; nothing where it is something else.
 std::optional<glm::dmat4> matrix_of(const Json& rows) {
   if (!rows.is_array() || rows.size() != 4) return std::nullopt;
   glm::dmat4 matrix(1.0);

@@ -11,12 +11,12 @@
 
 namespace parvis::photographs {
 
-/// What photographs.json says of a photograph by somebody's hand.
+/// Entries of photographs.json about a photograph that somebody wrote by hand.
 struct MaskAndGain {
   std::filesystem::path mask;  ///< empty: none
   glm::dvec3 gain{1.0};
 };
-/// By the photographs' names.
+/// Masks and gains by the photographs' names.
 using MasksAndGains = std::map<std::string, MaskAndGain>;
 
 /// Writes cameras.bin, images.bin, points3D.bin and photographs.json into `folder`. Paths are kept relative

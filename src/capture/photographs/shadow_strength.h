@@ -10,8 +10,8 @@
 
 namespace parvis::photographs {
 
-/// What is left of the light in a shadow where no photograph shows one: about the share of the sky in the
-/// light of a level place on a clear day with the sun at 35 degrees.
+/// The fraction of light that is left in a shadow where no photograph shows one: about the share of the sky
+/// in the light of a level place on a clear day with the sun at 35 degrees.
 inline constexpr float kept_in_usual_shadow = 0.3f;
 
 /// One surface in photographs that show it partly in the sun and partly in shadow.
@@ -27,7 +27,7 @@ struct LitAndShaded {
 /// of the light, and the sky that lights it is not redder than the sun.
 std::optional<LitAndShaded> lit_and_shaded(std::span<const glm::vec3> radiances);
 
-/// What shadows leave of the light in all photographs: the weighted median over surfaces;
+/// The fraction of light that shadows leave in all photographs: the weighted median over surfaces;
 /// kept_in_usual_shadow where none shows a shadow.
 float kept_in_shadows(std::span<const std::optional<LitAndShaded>> surfaces);
 

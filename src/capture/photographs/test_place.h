@@ -55,7 +55,7 @@ inline glm::vec3 test_place_along(glm::dvec3 origin, glm::dvec3 direction, int s
   return colour;
 }
 
-/// What the photograph shows of the place with this seed: another seed is another place.
+/// The photograph's picture of the place with this seed: another seed is another place.
 inline Image8 test_picture(const Photograph& photograph, int seed) {
   Image8 image(photograph.lens.width, photograph.lens.height, 3);
   for (int y = 0; y < image.height; ++y)

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float epsilon = 1e-3f;  // of equation 4.18
 
-/// Of a photograph while its pixels are given to cells.
+/// State of a photograph's pixel while pixels are given to cells.
 struct PixelState {
   glm::vec3 colour;    ///< sRGB, of the copy C_i
   float alpha;         ///< of the photograph

@@ -20,8 +20,8 @@ glm::vec3 linear_of(const std::uint8_t* srgb) {
   return linear_from_srgb(glm::vec3(float(srgb[0]), float(srgb[1]), float(srgb[2])) / 255.0f);
 }
 
-/// What a picture shows of wood at a point of it, in pixels: linear light and the share of it that is wood,
-/// interpolated between four pixels.
+/// The wood that a picture shows at a point of it, in pixels: linear light and the fraction of it that is
+/// wood, interpolated between four pixels.
 glm::vec4 wood_at(const Image8& picture, glm::vec2 point, float leaf_threshold) {
   const glm::vec2 corner = glm::floor(point - 0.5f), share = point - 0.5f - corner;
   glm::vec4 sum(0.0f);
@@ -36,7 +36,7 @@ glm::vec4 wood_at(const Image8& picture, glm::vec2 point, float leaf_threshold) 
   return sum;
 }
 
-/// What the photographs show of a point of the bark: linear light; alpha 0 where none sees it.
+/// The bark's colour at a point from the photographs: linear light; alpha 0 where none sees it.
 glm::vec4 bark_at(glm::vec3 point, glm::vec3 normal, std::span<const TreeView> views, float leaf_threshold) {
   glm::vec4 sum(0.0f);
   for (const TreeView& view : views) {
@@ -50,7 +50,7 @@ glm::vec4 bark_at(glm::vec3 point, glm::vec3 normal, std::span<const TreeView> v
   return sum.w > 1e-6f ? glm::vec4(glm::vec3(sum) / sum.w, 1.0f) : glm::vec4(0.0f);
 }
 
-/// Of each texel the logarithm of its light over the mean about it, round the trunk and along it.
+/// The logarithm of each texel's light over the mean about it, round the trunk and along it.
 std::vector<float> contrast_of(const std::vector<glm::vec4>& texels, int height) {
   std::vector<float> contrast(texels.size(), 0.0f);
   parallel_for(std::size_t(height), [&](std::size_t row) {

@@ -160,7 +160,7 @@ class Fit {
       });
   }
 
-  /// What each texel should change, from the pixels' errors.
+  /// Gathers each texel's change from the pixels' errors.
   void gather() {
     std::ranges::fill(colour_, glm::vec4(0.0f)), std::ranges::fill(opacity_, glm::vec2(0.0f));
     std::ranges::fill(visible_, 0.0f);
@@ -216,7 +216,7 @@ BillboardTextures optimised_texels(const BillboardTree& tree, const TreeVolume& 
 
 namespace {
 
-/// By the options' method.
+/// Computes textures by the options' method.
 BillboardTextures textures_of(const BillboardTree& tree, const TreeVolume& volume, const TreeView& view,
                               const TextureOptions& options) {
   return options.method == TextureMethod::optimised ? optimised_texels(tree, volume, view, options)

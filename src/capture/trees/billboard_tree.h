@@ -76,7 +76,7 @@ BillboardFrame billboard_frame(glm::vec3 centre, glm::vec3 cell_size_m, glm::vec
 glm::vec4 texture_colour(const BillboardTree& tree, const BillboardTextures& view, std::size_t cell,
                          glm::vec2 place);
 
-/// Up to two photographs and their weights, which add up to 1.
+/// One or two photographs and their weights, which add up to 1.
 struct ClosestViews {
   std::array<int, 2> views{0, 0};
   std::array<float, 2> weights{1.0f, 0.0f};

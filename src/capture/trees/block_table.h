@@ -23,7 +23,7 @@ class BlockTable {
   /// A table with these blocks, at most `max_blocks`.
   explicit BlockTable(std::vector<TextureBlock> blocks);
 
-  /// By their numbers.
+  /// The blocks by their numbers.
   const std::vector<TextureBlock>& blocks() const { return blocks_; }
   /// The numbers of blocks, all of which the table holds.
   std::vector<std::uint16_t> numbers_of(std::span<const TextureBlock> blocks) const;

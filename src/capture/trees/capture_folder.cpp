@@ -34,7 +34,7 @@ photographs::Photograph photograph_of(const TreeView& view) {
   return result;
 }
 
-/// What is wrong with a picture as a matte; empty: nothing.
+/// The fault of a picture as a matte; empty: none.
 std::string problem_of(const photographs::Photograph& photograph, const Image8& picture) {
   if (picture.width != photograph.lens.width || picture.height != photograph.lens.height)
     return fmt::format("{} x {} pixels, but its camera was calibrated for {} x {}", picture.width,

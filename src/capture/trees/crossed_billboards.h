@@ -23,7 +23,7 @@ struct CrossedBillboards {
 /// more.
 CrossedBillboards crossed_billboards(std::span<const TreeView> views, const Bounds& tree);
 
-/// What a camera sees of them: RGBA, premultiplied, linear light.
+/// Their picture by a camera: RGBA, premultiplied, linear light.
 ImageF render_crossed_billboards(const CrossedBillboards& billboards, const Pinhole& camera);
 
 /// Two crossed billboards as a model that any program shows, in the tree's frame: what the tree itself shows

@@ -12,7 +12,7 @@ constexpr float square_side_px = 4.0f;
 constexpr int around_squares = 1;  // of what is visible: billboards that end at one line leave a bright seam
 constexpr float large_squares = 4.0f;  // a quarter of a billboard's area in squares: it is four squares wide
 
-/// At a place of the billboard.
+/// The opacity at a place of the billboard.
 float opacity_at(glm::vec2 q, glm::vec4 slants, const OpacityMask& mask, glm::vec2 mask_scale) {
   if (display::silhouette_reach(q, slants) > 1.0f) return 0.0f;
   const glm::vec2 uv = 0.5f + 0.5f * glm::vec2(q.x, -q.y) * mask_scale;

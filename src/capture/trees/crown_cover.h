@@ -41,7 +41,7 @@ class CrownCover {
   glm::ivec2 squares() const { return size_; }
   /// The squares that billboards which were added may touch: low corner, high corner excluded.
   glm::ivec4 touched() const { return {touched_low_, touched_high_}; }
-  /// For each square, row by row from below, the depth (1 near, 0 far: as the renderer reverses it) behind
+  /// The depth of each square, row by row from below, (1 near, 0 far: as the renderer reverses it) behind
   /// which less than `min_visible` is seen in it and in its neighbours; 0: nothing is hidden. Good until the
   /// next call.
   std::span<const float> hiding_depths();
@@ -54,7 +54,7 @@ class CrownCover {
     bool is_before_eye;
   };
   Placed place(const CoveringBillboard& billboard) const;
-  /// Behind the billboard and its whole cell, reversed.
+  /// The depth behind the billboard and its whole cell, reversed.
   float depth_behind(const CoveringBillboard& billboard) const;
 
   glm::mat4 clip_from_world_{1.0f};

@@ -20,11 +20,11 @@ struct TreeLevels;
 /// A number per cell of each level, the finest level first.
 using CellShares = std::vector<std::vector<float>>;
 
-/// What does not change with the scene's sun.
+/// The light that does not change with the scene's sun.
 struct CrownLight {
   CellShares sky;            ///< share of the sky, 0..1
   CellShares albedo_factor;  ///< textures times this are albedo, linear light
-  /// Per level but the last: the cell of the next level that a cell is part of.
+  /// Parents in each level but the last: the cell of the next level that a cell is part of.
   std::vector<std::vector<std::uint32_t>> parents;
 };
 

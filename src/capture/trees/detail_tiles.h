@@ -14,7 +14,7 @@ class DetailTiles {
   /// Uploads the trees' tiles. Needs a current OpenGL context.
   static DetailTiles of(std::span<const TreeLevels* const> trees);
 
-  /// Of a tree; none: it has no detail.
+  /// The layer of a tree; null: it has no detail.
   const std::uint32_t* layer(const TreeLevels* tree) const {
     const auto found = layers_.find(tree);
     return found == layers_.end() ? nullptr : &found->second;

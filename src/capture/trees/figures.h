@@ -30,7 +30,7 @@ struct Curve {
 /// Curves over the iterations as a chart, SVG, logarithmic upward (figure 4.8).
 std::string convergence_chart(std::span<const Curve> curves);
 
-/// What the figures are made of.
+/// Input of the figures.
 struct FigureInput {
   std::span<const TreeView> views;     ///< the capture
   std::span<const TreeView> held_out;  ///< further views of the same tree, at least one

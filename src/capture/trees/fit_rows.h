@@ -15,7 +15,7 @@ struct FitRows {
   ImageF rgba;               ///< the rows: premultiplied linear light
   int first = 0, apart = 1;  ///< the rows' places in the photograph
 
-  /// Of a view.
+  /// The rows of a view.
   static FitRows of(const TreeView& view, int factor, const machines::Processes& processes);
   /// Where the i-th of them lies in the photograph.
   int row(int i) const { return first + i * apart; }

@@ -6,7 +6,7 @@
 
 namespace parvis::trees {
 
-/// Of one view, or their mean.
+/// Errors of one view, or their mean.
 struct ViewErrors {
   double psnr_db = 0.0;     ///< over white, sRGB
   double ssim = 0.0;        ///< over white

@@ -24,7 +24,8 @@ struct KeptStep {
 struct KeptSteps {
   KeptStep cutoff, opacity, colours, finer;
 
-  /// Of these photographs, with these options. How many processes and threads share the work does not count.
+  /// Steps of these photographs with these options. How many processes and threads share the work does not
+  /// count.
   static KeptSteps of(std::span<const TreeView> views, const ReconstructionOptions& options);
 };
 
@@ -34,13 +35,13 @@ struct FittedVolume {
   FitState state;
 };
 
-/// As they are kept.
+/// Opacities as they are kept.
 std::string bytes_of(const Opacities& opacities);
-/// As they are kept.
+/// A fitted volume as it is kept.
 std::string bytes_of(const TreeVolume& volume, const FitState& state);
-/// Of what was kept; nothing where bytes are none of such.
+/// Opacities from kept bytes; nothing where the bytes hold none.
 std::optional<Opacities> opacities_of(std::string_view bytes);
-/// Of what was kept; nothing where bytes are none of such.
+/// A fitted volume from kept bytes; nothing where the bytes hold none.
 std::optional<FittedVolume> fitted_volume_of(std::string_view bytes);
 
 /// Finds and keeps the steps of one reconstruction, as its options say. The first process alone reads and
@@ -50,7 +51,7 @@ class StepKeeper {
   /// The options outlive it.
   explicit StepKeeper(const ReconstructionOptions& options);
 
-  /// What was kept of a step; empty: nothing.
+  /// The kept content of a step; empty: there is none.
   std::string find(const KeptStep& step) const;
   /// Called after each bit of work. `content` is kept if the step is finished by it, if the time has come, or
   /// if the work is to be interrupted. Error: the work ends here, interrupted or because it cannot be kept.

@@ -10,7 +10,8 @@
 
 namespace parvis::trees {
 
-/// Of one volume with one set of options: a part for the side of the textures, and one for each photograph.
+/// Kept textures of one volume with one set of options: a part for the side of the textures, and one for each
+/// photograph.
 class KeptTextures {
  public:
   /// The checkpoint outlives it.

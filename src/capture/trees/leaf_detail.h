@@ -21,8 +21,8 @@ namespace parvis::trees {
 struct LeafDetail {
   static constexpr int side = 64;  ///< texels
 
-  /// Of opacity and of brightness, -127..127 for -1..1; each has the mean 0 and they are uncorrelated, so
-  /// that neither opacity nor colour change in the mean. Row by row; empty: the tree has no detail.
+  /// Detail of opacity and of brightness, -127..127 for -1..1; each has the mean 0 and they are uncorrelated,
+  /// so that neither opacity nor colour change in the mean. Row by row; empty: the tree has no detail.
   std::vector<glm::i8vec2> texels;
   float photographed_pixel_m = 0.0f;  ///< the width at the tree's middle, in its frame, in the mean
 
@@ -39,7 +39,7 @@ struct LeafDetail {
   glm::vec4 added_to(glm::vec4 colour, glm::vec2 place, float pixel_m) const;
 };
 
-/// Of the finest level of a tree. The same tree and seed have the same detail.
+/// Detail of the finest level of a tree. The same tree and seed have the same detail.
 LeafDetail leaf_detail(const BillboardTree& tree, std::uint64_t seed = 1);
 
 }  // namespace parvis::trees

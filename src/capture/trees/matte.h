@@ -10,7 +10,7 @@
 
 namespace parvis::trees {
 
-/// What a pixel is known to show.
+/// The content that a pixel is known to show.
 enum class Zone : std::uint8_t { unknown, background, foreground };
 
 /// Zones of a photograph's pixels, row by row.

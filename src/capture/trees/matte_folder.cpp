@@ -36,7 +36,7 @@ std::vector<fs::path> pictures_of(const fs::path& folder) {
   return files;
 }
 
-/// What a matte was made of, and what was made: hashes.
+/// Hashes of a matte and of its sources.
 struct Record {
   std::uint64_t sources = 0, matte = 0;
 };

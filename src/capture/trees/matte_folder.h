@@ -8,7 +8,7 @@
 
 namespace parvis::trees {
 
-/// What is asked of `write_mattes`.
+/// Input of `write_mattes`.
 struct MatteFolder {
   std::filesystem::path photographs;  ///< folder of .png and .jpg pictures
   /// Folder of small painted pictures of the same names, .png (zones_of_scribbles); empty: none. Photographs

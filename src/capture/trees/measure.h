@@ -21,14 +21,14 @@ struct TreeMeasures {
                                                ///< height; 0 below the crown's base, where the trunk is
 };
 
-/// Of a volume: the tree is where its cells stop at least `min_alpha` of the light that passes them together,
-/// horizontally: two or three steps of a matte of 8 bits. Leaf area density takes leaves of all
+/// Measures of a volume: the tree is where its cells stop at least `min_alpha` of the light that passes them
+/// together, horizontally: two or three steps of a matte of 8 bits. Leaf area density takes leaves of all
 /// directions alike: twice the mean extinction (Ross 1981). Opaque cells hide how many leaves are behind each
 /// other, so that dense crowns come out too low.
 TreeMeasures measured(const TreeVolume& volume, float min_alpha = 0.01f);
 
-/// Of a model's triangles, as the path tracer photographs them: where the alpha of a cutout material is below
-/// half nothing is there. Without projected area and leaf area density.
+/// Measures of a model's triangles as the path tracer photographs them: where the alpha of a cutout material
+/// is below half nothing is there. Without projected area and leaf area density.
 TreeMeasures measured(const scene::Model& model);
 
 }  // namespace parvis::trees

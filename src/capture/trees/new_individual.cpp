@@ -24,7 +24,7 @@ struct Move {
   int turns = 0;
   bool is_mirrored = false;
 
-  /// Of doubled coordinates about the axis, or of a direction.
+  /// Moves doubled coordinates about the axis, or a direction.
   template <class T>
   std::array<T, 2> forward(T x, T y) const {
     if (is_mirrored) std::swap(x, y);

@@ -14,7 +14,7 @@
 
 namespace parvis::trees {
 
-/// What a cell holds most of.
+/// The organ that fills most of a cell.
 enum class Organ : std::uint8_t { trunk, branch, leaf };
 
 /// The organs of a tree.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int cutoff_iterations = 5;  // of the estimates that the cutoff is chosen by
 
-/// What was kept of an earlier call.
+/// Kept results of an earlier call.
 struct Found {
   std::optional<float> cutoff;
   std::optional<Opacities> opacities;
@@ -95,7 +95,7 @@ class Work {
     return opacity;
   }
 
-  /// What is to come, for people: in passes of one photograph's rays through the grid. A grid that is one
+  /// The remaining work, for people, in passes of one photograph's rays through the grid. A grid that is one
   /// level finer has so many times more cells on a ray.
   std::size_t passes_to_do() const {
     const std::size_t count = all_.size();

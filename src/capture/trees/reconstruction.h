@@ -36,7 +36,7 @@ struct StepTime {
   double seconds = 0.0;
 };
 
-/// What was reconstructed.
+/// A reconstructed tree.
 struct Reconstruction {
   TreeVolume volume;
   Opacities opacities;             ///< of the first estimate, with its convergence

@@ -27,7 +27,7 @@ struct SceneTree {
 
   /// A tree that sways is a dynamic thing.
   bool sways() const { return sway_m > 0.0f; }
-  /// As it leans now.
+  /// The tree's transform as it leans now.
   glm::mat4 world_from_leaning_tree() const { return world_from_tree * leaning(); }
   /// The tree's frame leaning, from the tree's frame at rest: a shear about the foot.
   glm::mat4 leaning() const;
@@ -71,7 +71,7 @@ struct TreeDetail {
   /// Billboards of which the crowns before them leave less visible are not drawn; 0: all are drawn.
   float min_visible = 0.01f;
 
-  /// What trees may differ from reality where a view affords it: half a pixel.
+  /// Limits of a tree's difference from reality where a view affords it: half a pixel.
   DetailLimits finer_limits = {0.5f, 0.5f, 0.5f};
   /// Billboards of a view up to which trees are shown within `finer_limits`: a tree or two, as large as the
   /// picture. 0: never.

@@ -19,11 +19,12 @@ class ShownTree {
  public:
   /// `light`: whose sun, sky and haze it stands in; other things of that scene are not drawn.
   static Result<ShownTree> create(std::shared_ptr<const TreeLevels> tree, const scene::Scene& light);
-  /// In place of a captured tree the objects of a scene in its own light: the mesh that was photographed.
+  /// Shows the objects of a scene in its own light in place of a captured tree: the mesh that was
+  /// photographed.
   static Result<ShownTree> of_scene(scene::Scene scene);
 
-  /// What a camera sees of the tree: RGBA, premultiplied, linear light before any tone curve. Fails only
-  /// if a shader does.
+  /// The tree's picture by a camera: RGBA, premultiplied, linear light before any tone curve. Fails only if a
+  /// shader does.
   Result<ImageF> picture(const Pinhole& camera);
 
  private:

@@ -24,7 +24,7 @@ constexpr float lowest_deg = 2.0f, highest_deg = 26.0f;  // of the cameras, abov
 constexpr float golden_share = 0.61803399f;
 constexpr int tracer_version = 1;  // to be raised whenever the same scene gives other photographs
 
-/// From where the box fills the picture's height or width, from the highest camera.
+/// Distance at which the box fills the picture's height or width, from the highest camera.
 float distance_m(const Bounds& tree) {
   const glm::vec3 half = 0.5f * tree.size();
   const float across = std::max(half.x, half.y), above = glm::radians(highest_deg);

@@ -18,7 +18,7 @@ struct CaptureLight {
   float sun_height_deg = 48.0f;
 };
 
-/// Of the photographs of a capture: a leaf in the sun is then about 0.7 in sRGB.
+/// Exposure of the photographs of a capture: a leaf in the sun is then about 0.7 in sRGB.
 inline constexpr float capture_exposure = 0.9f;
 
 /// A scene of the model alone, under that sun and a plain sky.

@@ -57,7 +57,7 @@ struct TestVolume {
   }
 };
 
-/// What a camera makes of premultiplied linear light: straight alpha, sRGB.
+/// A camera's photograph of premultiplied linear light: straight alpha, sRGB.
 inline Image8 photograph_of(ImageF premultiplied) {
   for (std::size_t i = 0; i < premultiplied.pixels.size(); ++i)
     if (i % 4 != 3) premultiplied.pixels[i] /= std::max(premultiplied.pixels[i / 4 * 4 + 3], 1e-6f);

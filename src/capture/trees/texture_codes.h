@@ -6,7 +6,7 @@
 
 namespace parvis::trees {
 
-/// What a quantisation has done.
+/// Result of a quantisation.
 struct Quantisation {
   std::size_t blocks = 0;  ///< of all textures
   std::size_t codes = 0;   ///< that they share

@@ -14,7 +14,7 @@
 
 namespace parvis::trees {
 
-/// What a billboard has in place of a texture that its photograph did not take.
+/// The number that stands in place of a texture that a billboard's photograph did not take.
 inline constexpr std::uint32_t no_tile = 0xFFFFFFFFu;
 
 /// Where the textures lie. A tile is its column and row (9 bits each, from bit 0, counted in 4 texels), its
@@ -24,7 +24,7 @@ class TreeAtlas {
   /// Uploads the trees. Needs a current OpenGL context. Errors: more than the GPU's array textures hold.
   static Result<TreeAtlas> create(std::span<const TreeLevels* const> trees);
 
-  /// Of a cell's texture in a photograph.
+  /// The tile of a cell's texture in a photograph.
   std::uint32_t tile(const TreeLevels* tree, std::size_t level, std::size_t view, std::size_t cell) const;
   /// Where on its billboard (-1..1: low and high corner) that texture shows something at a mip level.
   glm::vec4 extent(const TreeLevels* tree, std::size_t level, std::size_t view, std::size_t cell,

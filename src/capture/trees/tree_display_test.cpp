@@ -105,7 +105,7 @@ class TreeDisplayTest : public gl::ContextTest {
     return difference->flip;
   }
 
-  /// What one picture has more than another, beside the same of two other pictures; green, of 255.
+  /// The difference of two pictures beside that of two others; green, of 255.
   struct Comparison {
     double mean, spread, correlation;
   };

@@ -68,7 +68,7 @@ struct Extent {
   }
 };
 
-/// For each corner of a quad how far the crown reaches toward the sun, in the tree's frame.
+/// Distance to the crown's end toward the sun from each corner of a quad, in the tree's frame.
 glm::vec4 exit_distances(const Bounds& box, glm::vec3 centre, const BillboardFrame& frame, glm::vec4 extent,
                          glm::vec3 to_sun) {
   glm::vec4 distances;
@@ -81,7 +81,7 @@ glm::vec4 exit_distances(const Bounds& box, glm::vec3 centre, const BillboardFra
   return distances;
 }
 
-/// What one view shows.
+/// The billboards that one view shows.
 struct DrawList {
   std::vector<DrawnBillboard> billboards;
   std::size_t detailed = 0;  ///< how many of them, the last ones, are drawn with detail
@@ -269,7 +269,7 @@ class TreeDrawable final : public render::Drawable {
     return Done{};
   }
 
-  /// What is visible of a tree's billboards, from front to back.
+  /// Adds the visible billboards of a tree from front to back.
   void add(std::size_t i, const View& view, const SeenTree& seen, std::size_t level,
            std::vector<DrawnBillboard>& out) {
     const SceneTree& placed = trees_[i];

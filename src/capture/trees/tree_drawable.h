@@ -14,7 +14,7 @@ render::DrawableKind scene_trees_kind();
 SeenTree seen_tree(const SceneTree& tree, const Bounds& bounds, const render::View& view,
                    const render::Culling& culling);
 
-/// What rays see of them.
+/// Trees as rays see them.
 scene::TracedKind traced_trees();
 
 }  // namespace parvis::trees

@@ -85,7 +85,7 @@ std::string grid_problem(const Bounds& box, int branching, int side, int max_sid
 
 namespace {
 
-/// What a tree's file holds.
+/// The content of a tree's file.
 struct Content {
   SealedKind kind;
   std::string bytes;

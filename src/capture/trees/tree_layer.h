@@ -21,7 +21,7 @@ class TreeLayer {
 
   /// Takes over what the billboards of a main view hide, when all have been added to `cover`.
   void prepare(CrownCover& cover);
-  /// In the view's blend pass: binds the layer, with the view's depth, in place of the view's target.
+  /// Runs in the view's blend pass: binds the layer, with the view's depth, in place of the view's target.
   void begin(const render::View& view);
   /// Blends the layer over the view, and binds the view's target again.
   void end(const render::View& view) const;

@@ -43,7 +43,7 @@ struct SeenTree {
 /// nearer or farther than the photographs has another perspective. 0 at a photograph's place.
 float parallax(const BillboardTree& tree, glm::vec3 eye);
 
-/// What a level of detail may differ from reality, in pixels.
+/// Limits of a level of detail's difference from reality, in pixels.
 struct DetailLimits {
   /// The width of a texel, where it is wider than those of the finest level.
   float max_texel_pixels = 1.0f;

@@ -33,7 +33,7 @@ std::vector<float> extinctions(const BillboardTree& tree) {
   return result;
 }
 
-/// What reaches each cell along a direction, from its middle on: its own leaves are what is lit.
+/// The fraction of light that reaches each cell's middle along a direction: the cell's own leaves are lit.
 std::vector<float> passed(const BillboardTree& tree, const CrownShade& shade, glm::vec3 direction) {
   std::vector<float> result(tree.grid.size());
   parallel_for(

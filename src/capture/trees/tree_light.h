@@ -12,11 +12,11 @@
 
 namespace parvis::trees {
 
-/// Of foliage, in the visible (Hosgood and others 2005, LOPEX93: 0.08 to 0.15): the reflectance that the mean
-/// of a tree is given, for no photograph says how bright its light was.
+/// Albedo of foliage in the visible (Hosgood and others 2005, LOPEX93: 0.08 to 0.15): the reflectance that
+/// the mean of a tree is given, for no photograph says how bright its light was.
 inline constexpr float mean_albedo = 0.12f;
 
-/// What the cells of a tree let through.
+/// The light that the cells of a tree transmit.
 class CrownShade {
  public:
   /// The tree must outlive it.

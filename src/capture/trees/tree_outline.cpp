@@ -32,7 +32,7 @@ struct SideView {
   }
 };
 
-/// What a horizontal look across `along` shows.
+/// The outline in a horizontal view across `along`.
 SideView side_view(const TreeVolume& volume, glm::vec2 along) {
   const CellGrid& grid = volume.grid;
   const glm::vec3 size = grid.cell_size_m();

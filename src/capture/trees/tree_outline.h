@@ -44,13 +44,13 @@ struct TreeOutline {
   float slice_height_m() const { return (top_m - foot_m) / float(slice_count); }
 };
 
-/// Of a volume. What counts is the opacity that the cells have together along a horizontal line, as a
+/// The outline of a volume, by the opacity that the cells have together along a horizontal line, as a
 /// photograph shows them, in bins as wide as a cell: a twig is there where at least `min_alpha` of the light
 /// is stopped, however it is spread over the cells behind each other. The last bin of each row counts in
 /// proportion to its opacity over that of the bin before: where the tree ends is known to a part of a cell.
 TreeOutline outline_of(const TreeVolume& volume, float min_alpha);
 
-/// Of points.
+/// The outline of points.
 TreeOutline outline_of(std::span<const glm::vec3> points);
 
 }  // namespace parvis::trees

@@ -28,8 +28,8 @@ constexpr float beta1 = 0.9f, beta2 = 0.98f, adam_epsilon = 1e-7f;
 constexpr float min_slope_light = 0.01f;  // below it the slope of sRGB is taken as there
 constexpr float min_root = 0.03f;         // of a colour's light: from 0 no step leads away
 
-/// By how much a display magnifies an error of light: the slope of sRGB where the pixel's light stands before
-/// grey; alpha counts as it is.
+/// The factor by which a display magnifies an error of light: the slope of sRGB where the pixel's light
+/// stands before grey; alpha counts as it is.
 glm::vec4 display_slope(glm::vec4 rgba) {
   const glm::vec3 light = glm::max(glm::vec3(rgba) + 0.5f * (1.0f - rgba.w), min_slope_light);
   return glm::vec4((1.055f / 2.4f) * glm::pow(light, glm::vec3(1.0f / 2.4f - 1.0f)), 1.0f);

@@ -68,14 +68,15 @@ std::vector<double> fit_volume(TreeVolume& volume, std::span<const TreeView> vie
 void fit_volume(TreeVolume& volume, std::span<const TreeView> views, const FitOptions& options,
                 FitState& state);
 
-/// Without the cells whose transparency is above `cutoff` (the thesis's threshold, 0.94 for its oak).
+/// The volume without the cells whose transparency is above `cutoff` (the thesis's threshold, 0.94 for its
+/// oak).
 TreeVolume without_transparent_cells(const TreeVolume& volume, float cutoff);
 
 /// The volume with every cell divided once more; the parts inherit what the whole had. Errors: a side above
 /// max_grid_side.
 Result<TreeVolume> subdivided(const TreeVolume& volume);
 
-/// What a camera sees of the volume: RGBA, premultiplied, linear light.
+/// The volume's picture by a camera: RGBA, premultiplied, linear light.
 ImageF render_volume(const TreeVolume& volume, const Pinhole& camera);
 
 }  // namespace parvis::trees

@@ -14,7 +14,7 @@ namespace parvis::trees {
 /// The alpha of any rectangle of a view, from a summed-area table (Crow 1984). Pictures up to 16 megapixels.
 class Silhouette {
  public:
-  /// Of a view's alpha.
+  /// The silhouette of a view's alpha.
   explicit Silhouette(const TreeView& view);
 
   /// Could the box show alpha in this view? Beyond the picture's edge there is no tree, unless the matte is

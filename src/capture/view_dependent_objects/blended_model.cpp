@@ -43,7 +43,7 @@ class Corners {
   std::unordered_multimap<std::uint64_t, std::uint32_t> cells_;
 };
 
-/// What one model has to say of a triangle.
+/// One model's texture of a triangle.
 struct Texturing {
   std::array<glm::vec2, 3> uvs{};
   int picture = no_texturing;  ///< or `plain`
@@ -80,7 +80,7 @@ class Assembly {
   }
 
  private:
-  /// Of each model that has the name: its index and parts.
+  /// Parts by the index of each model that has the name.
   using Parts = std::map<std::size_t, std::vector<std::size_t>>;
 
   std::map<std::string, Parts> parts_by_name() const {

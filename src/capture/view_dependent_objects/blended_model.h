@@ -40,17 +40,17 @@ struct Piece {
 struct BlendedModel {
   std::vector<glm::vec3> corners, normals;  ///< three per triangle, in the models' frame
   std::vector<Piece> pieces;
-  /// As view_lookup.glsl reads it.
+  /// The table as view_lookup.glsl reads it.
   std::vector<glm::vec4> table;
   std::vector<scene::Texture> pictures;  ///< all of one size
   bool has_holes = false;                ///< alpha cuts out
-  /// What shadows leave of the light, as the textures show it, and the luminance of what is in the sun; 0:
-  /// they show no shadows (photographs::lit_and_shaded).
+  /// The fraction of light that shadows leave, as the textures show it, and the luminance in the sun; 0: they
+  /// show no shadows (photographs::lit_and_shaded).
   float kept_in_shadows = 1.0f, lit_luminance = 0.0f;
 
-  /// Of all pieces.
+  /// Number of triangles of all pieces.
   std::size_t triangle_count() const { return corners.size() / 3; }
-  /// Of all pieces.
+  /// Bounds of all pieces.
   Bounds bounds() const;
   /// Everything that is seen of it.
   void hash(ContentHash& hash) const;

@@ -68,7 +68,7 @@ class PairReader {
     is_open_ = true;
   }
 
-  /// Of the pair before the next file=, or of the last.
+  /// Ends the pair before the next file=, or the last.
   void end_pair() {
     if (camera_file_) look_into(*camera_file_);
     camera_file_ = nullptr;
@@ -100,7 +100,7 @@ class PairReader {
           attribute.where, "expected camera=\"x y z h p r fov aspect\": 8 numbers, fov between 0 and 180"));
   }
 
-  /// What it holds is looked at when it is known whether a name follows.
+  /// Takes a file, whose content is examined when it is known whether a name follows.
   void take_file(const scene::NodeAttribute& attribute) {
     if (!may_take(attribute)) return;
     is_open_ = false;

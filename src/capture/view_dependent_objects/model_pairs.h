@@ -18,9 +18,9 @@ struct ModelPair {
   FileLocation where;         ///< of file=, for errors
 };
 
-/// In the order of the attributes: each file= is followed by one of camera=, cameraFile= and cameraName=
-/// (appendix A.1). cameraName= names a viewpoint of the file that was named last, be it a model or a
-/// cameraFile=; a cameraFile= without it holds one viewpoint alone. Errors name the attribute, and the
+/// Pairs in the order of the attributes: each file= is followed by one of camera=, cameraFile= and
+/// cameraName= (appendix A.1). cameraName= names a viewpoint of the file that was named last, be it a model
+/// or a cameraFile=; a cameraFile= without it holds one viewpoint alone. Errors name the attribute, and the
 /// viewpoints that there are.
 Result<std::vector<ModelPair>> model_pairs(const scene::Node& node);
 

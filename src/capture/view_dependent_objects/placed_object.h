@@ -21,10 +21,11 @@ struct PlacedObject {
   int passes = 2;           ///< setNumBlendPass
   float brightness = 1.0f;  ///< 1: the display shows the textures as they are, whatever the exposure
   bool is_visible = true;
-  /// What is left of its light where other things of the scene cast a shadow on it; 1: they cast none.
+  /// The fraction of its light that is left where other things of the scene cast a shadow on it; 1: they cast
+  /// none.
   float kept_in_shadow = 1.0f;
 
-  /// All of it.
+  /// Adds all members.
   void hash(ContentHash& hash) const;
 };
 
