@@ -95,7 +95,7 @@ TEST(Transfer, IsLinearInSunAndSky) {
   EXPECT_NEAR(at(3, 2), 3 * at(1, 0) + 2 * at(0, 1), 0.015f * at(3, 2));
 }
 
-/// Without sun and sky; a lamp hangs 5 m above the ground.
+/// The scene without sun and sky; a lamp hangs 5 m above the ground.
 scene::Scene by_night(scene::Scene scene) {
   scene.sun.irradiance = vec3(0.0f), scene.sky.intensity = 0.0f;
   scene::Lamp lamp;
@@ -199,7 +199,7 @@ TEST(LampShares, ALampThatIsSwitchedTracesItsOwnRaysAlone) {
   }
 }
 
-/// Of more lamps than a cell has room for, those that are brightest now count, whichever burned first.
+/// The lamps that are brightest now count where a cell has no room for all, whichever burned first.
 TEST(LampShares, TheStrongestAreChosenAmongThoseThatBurnNow) {
   const scene::Scene scene = street();
   const Transfer transfer(scene, reference::RayScene(scene), {true, 6.0f, 64});
@@ -217,7 +217,7 @@ TEST(LampShares, TheStrongestAreChosenAmongThoseThatBurnNow) {
   EXPECT_LT(4 * (shares.traced() - traced), traced) << "one lamp beside the eight";
 }
 
-/// What is kept is bounded where a lamp moves on for hours.
+/// The kept data are bounded where a lamp moves on for hours.
 TEST(LampShares, ALampOnAPathIsForgottenWhereItHasBeen) {
   const scene::Scene scene = street();
   const Transfer transfer(scene, reference::RayScene(scene), {true, 8.0f, 32});
@@ -298,7 +298,7 @@ TEST_F(BouncedPicture, IsThatOfTheLampsThatBurnNowWhicheverBurnedFirst) {
   EXPECT_EQ(fewer, lobes_of(*make()));
 }
 
-/// What path-traced photographs of the shaded wall show that sun and sky alone do not.
+/// The bounced light that path-traced photographs of the shaded wall show, and sun and sky alone do not.
 TEST_F(BouncedPicture, IsNearerToThePhotographThanTheConstant) {
   constexpr int size = 64;
   scene::Scene scene = street();

@@ -26,7 +26,7 @@ class BouncedScene : public scene::ScriptTest<gl::ContextTest> {
   std::unique_ptr<render::Renderer> renderer_of(const scene::Scene& scene) const {
     return render::renderer_of(scene, house_.get<render::Lights>().make);
   }
-  /// In all cells, when a frame has been drawn.
+  /// The light in all cells when a frame has been drawn.
   static std::vector<glm::vec4> light_in(render::Renderer& renderer, const scene::Scene& scene) {
     EXPECT_TRUE(render::draw_frame(renderer, scene, {Camera{}, 16, 16}));
     const shading::BouncedLight* const bounced = renderer.drawn_light().bounced;

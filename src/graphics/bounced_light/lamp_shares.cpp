@@ -12,7 +12,7 @@ namespace {
 /// A lamp on a path is another lamp in each frame: points remember this many, then only those that burn.
 constexpr std::size_t max_kept_per_point = 4 * std::size_t(shading::max_lamps_per_cell);
 
-/// Of all that its shares follow from.
+/// Keys of all data from which the lamps' contributions follow.
 std::vector<std::uint64_t> keys_of(const std::vector<shading::Lamp>& lamps) {
   std::vector<std::uint64_t> keys;
   keys.reserve(lamps.size());

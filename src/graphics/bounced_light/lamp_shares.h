@@ -12,7 +12,7 @@
 
 namespace parvis::bounced_light {
 
-/// Of one transfer and the scene that it was made of.
+/// Contributions of lamps by one transfer and the scene that it was made of.
 class LampShares {
  public:
   /// Irradiance of each patch by these lamps, of those near a point the strongest (shading::LampTable);

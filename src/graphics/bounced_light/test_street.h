@@ -20,7 +20,7 @@ inline scene::Scene street() {
   return scene;
 }
 
-/// Of a scene, as a renderer takes it.
+/// The sky of a scene as a renderer takes it.
 inline shading::SkyLight sky_of(const scene::Scene& scene) {
   return shading::make_sky_light(scene.sky.picture, scene.sky.intensity, scene.sky.heading);
 }

@@ -85,7 +85,7 @@ bool is_open(const scene::Scene& scene, const reference::RayScene& rays, referen
   return true;
 }
 
-/// Of which patch a point is: its cell, and the axis that its normal is nearest to.
+/// Key of the patch of a point: its cell, and the axis that its normal is nearest to.
 std::uint64_t patch_key(vec3 position, vec3 normal, vec3 origin, float side_m) {
   const ivec3 cell(glm::floor((position + 0.1f * normal - origin) / side_m));
   const vec3 size = glm::abs(normal);
@@ -252,7 +252,7 @@ float Transfer::lamp_share(const shading::Lamp& lamp, std::size_t point, const s
   return share;
 }
 
-/// Of each patch by sun and sky.
+/// Irradiance of each patch by sun and sky.
 std::vector<vec3> Transfer::direct_irradiance(const scene::Sun& sun, const shading::SkyLight& sky) const {
   const auto& directions = directions_of_sky();
   constexpr float solid_angle = 2.0f * glm::pi<float>() / float(sky_directions);

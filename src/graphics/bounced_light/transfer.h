@@ -26,7 +26,7 @@ inline constexpr int sky_directions = 128;
 /// Evenly spread; each stands for 2 pi / sky_directions steradians.
 const std::array<glm::vec3, sky_directions>& directions_of_sky();
 
-/// What a scene may ask for: rays from each place.
+/// Limits of the rays from each place that a scene may ask for.
 inline constexpr int min_rays = 16, max_rays = 1024;
 
 /// Some square metres of surface that face one way.
@@ -49,12 +49,13 @@ class Transfer {
   Transfer(const scene::Scene& scene, const reference::RayScene& rays,
            const scene::BouncedSettings& settings);
 
-  /// All of it, for a file.
+  /// The whole transfer as bytes for a file.
   std::string to_bytes() const;
-  /// What `to_bytes` wrote; nothing where bytes are missing, or counts and indices do not fit each other.
+  /// The transfer that `to_bytes` wrote; nothing where bytes are missing, or counts and indices do not fit
+  /// each other.
   static std::optional<Transfer> from_bytes(std::string_view bytes);
 
-  /// What a lamp does to one of `lit_points`, past static things of the scene that this was made of:
+  /// A lamp's contribution to one of `lit_points`, past static geometry of the scene that this was made of:
   /// irradiance per square metre over the lamp's power in W/sr. Traces a ray.
   float lamp_share(const shading::Lamp& lamp, std::size_t point, const scene::Scene& scene,
                    const reference::RayScene& rays) const;

@@ -60,7 +60,8 @@ std::optional<Transfer> Transfer::from_bytes(std::string_view bytes) {
   return result;
 }
 
-/// What is made of bytes is used without further questions: sizes, indices, and all that becomes a cell.
+/// Checks a transfer read from bytes, which is used without further checks: sizes, indices, all that becomes
+/// a cell.
 bool Transfer::is_consistent() const {
   constexpr int max_cells_along = 1 << 20;
   const auto is_count = [](int value) { return value >= 0 && value <= max_cells_along; };

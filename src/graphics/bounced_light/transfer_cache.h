@@ -10,13 +10,13 @@
 
 namespace parvis::bounced_light {
 
-/// What is kept of one state of a scene.
+/// The kept transfer of one state of a scene.
 class TransferCache {
  public:
   /// Nothing is kept of a scene that was made in memory.
   explicit TransferCache(const scene::Scene& scene);
 
-  /// As it was kept. Reports on standard error what cannot be used of what was kept.
+  /// The kept transfer. Reports on standard error a file that cannot be used.
   std::optional<Transfer> read() const;
   /// Keeps it; `file` is not empty. Errors: it cannot be written.
   Status keep(const Transfer& transfer) const;

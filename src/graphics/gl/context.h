@@ -29,8 +29,9 @@ class Context {
 /// (seamless cube maps) and, in debug builds, reports the driver's complaints.
 Status check_current();
 
-/// What the driver has refused since the last call, such as "out of memory"; empty: nothing. Waits for no
-/// command. A driver may refuse storage for what a scene asks, and would draw black from then on.
+/// The requests that the driver has refused since the last call, such as "out of memory"; empty: nothing.
+/// Waits for no command. A driver may refuse storage for what a scene asks, and would draw black from then
+/// on.
 std::string refused();
 
 /// "renderer, version" of the current context, as benches name the machine.

@@ -24,7 +24,7 @@ class PassTimes {
   /// The commands since the last call here or of begin_frame were the pass `name`.
   void end_pass(std::string name);
 
-  /// Of the latest frame whose times have come, in their order; empty before there is one.
+  /// Times of the latest frame whose times have come, in their order; empty before there is one.
   const std::vector<PassTime>& latest() const { return latest_; }
 
  private:

@@ -22,7 +22,7 @@ bool is_same(const shading::Lamp& a, const shading::Lamp& b) {
          a.body == b.body;
 }
 
-/// What a depth map follows from: place, reach and radius.
+/// The key of a depth map: place, reach and radius.
 using MapKey = std::array<float, 5>;
 MapKey map_key(const shading::Lamp& lamp) {
   return {lamp.place.x, lamp.place.y, lamp.place.z, lamp.place.w, lamp.body.w};

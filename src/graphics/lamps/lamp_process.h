@@ -11,7 +11,7 @@
 
 namespace parvis::lamps {
 
-/// What a lamp names: Lamp::of, shows and part.
+/// The names in a lamp: Lamp::of, shows and part.
 using LampNames = std::tuple<std::string, std::string, std::string>;
 
 /// Shows and hides the objects of Lamp::shows. Warns once of each lamp that names none: when all processes

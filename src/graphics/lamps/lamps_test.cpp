@@ -226,7 +226,7 @@ TEST_F(LampPicture, AgreesWithTheRayTracerThatReadsItsMapsAndWithExactRays) {
       << "the comparison sees lamps that shine through walls";
 }
 
-/// Of the lamps that burn, the others keep their depth maps.
+/// The other lamps that burn keep their depth maps.
 TEST_F(LampPicture, ALampThatIsSwitchedHasItsMapAloneTraced) {
   scene::Scene scene = night_street();
   auto& hung = scene.data<scene::ItemsOf<scene::Lamp>>().items;

@@ -22,7 +22,7 @@ struct Densities {
 /// 2017).
 Densities densities_at(double height_m);
 
-/// What a clear sky depends on, beside the sun.
+/// Parameters of a clear sky beside the sun.
 struct Air {
   /// Turbidity after Linke as Preetham uses it: 1 is pure air, 2 to 3 a clear day, 10 haze, 30 and more mist.
   double turbidity = 3.0;
@@ -37,7 +37,7 @@ using shading::sqrt;
 /// The part of what haze intercepts that it scatters; the rest is absorbed.
 inline constexpr float haze_albedo = 0.92f;
 
-/// Per metre, where the densities are 1.
+/// Coefficients per metre where the densities are 1.
 struct AirCoefficients {
   Spectrum molecules;  ///< scattering (nothing is absorbed)
   Spectrum haze_scattering, haze_extinction;
@@ -50,7 +50,7 @@ struct AirCoefficients {
   }
 };
 
-/// Per steradian, of the cosine between the directions before and after.
+/// Rayleigh's phase function, per steradian, of the cosine between the directions before and after.
 inline float molecule_phase(float cosine) { return 0.05968310f * (1.0f + cosine * cosine); }
 
 /// How far a ray of unit direction cosine `mu` to the vertical runs from radius `r` to the top of the air, or

@@ -14,7 +14,7 @@ namespace {
 /// Rays of a projection: Gauss-Legendre points of the cosine to the vertical, and turns on one side of the
 /// sun's plane.
 constexpr int ray_cosines = 16, ray_turns = 6, ray_steps = 16;
-/// Of light that haze scattered once, which is brightest about the sun.
+/// Turns of light that haze scattered once, which is brightest about the sun.
 constexpr int fine_turns = 24;
 constexpr int max_orders = 40;
 /// An order that changes no harmonic by more than this share is the last.
@@ -33,7 +33,8 @@ std::array<float, 6> basis(float x, float z) {
           1.092548f * x * z, 0.546274f * (x * x - y2)};
 }
 constexpr int order_of[6] = {0, 1, 1, 2, 2, 2};
-/// What a phase function leaves of a harmonic: of molecules 1, 0, 1/10; of Henyey and Greenstein g^order.
+/// The factor of a phase function on a harmonic, by order: of molecules 1, 0, 1/10; of Henyey and Greenstein
+/// g^order.
 constexpr float molecules_keep[3] = {1.0f, 0.0f, 0.1f};
 const float haze_keep[3] = {1.0f, haze_asymmetry, haze_asymmetry* haze_asymmetry};
 
@@ -177,8 +178,8 @@ Atmosphere::Ray Atmosphere::ray_from(double r, double mu, int steps) const {
   return ray;
 }
 
-/// What air scatters along a ray of light that was scattered before, for a ray whose horizontal part makes an
-/// angle `turn` with the sun's.
+/// Light that air scatters along a ray, of light that was scattered before; the ray's horizontal part makes
+/// an angle `turn` with the sun's.
 Spectrum Atmosphere::scattered_again(const Place& place, const Ray& ray, double z, double turn) const {
   const double across = std::sqrt(std::max(0.0, 1.0 - z * z));
   const glm::dvec3 direction(across * std::cos(turn), across * std::sin(turn), z),

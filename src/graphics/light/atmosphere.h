@@ -20,7 +20,8 @@ namespace parvis::light {
 class AirColumns {
  public:
   static const AirColumns& table();
-  /// From radius `r` in a direction that does not meet the ground; below the horizon as at the horizon.
+  /// Columns from radius `r` in a direction that does not hit the ground; below the horizon as at the
+  /// horizon.
   Densities to_top(double r, double mu) const;
 
  private:
@@ -29,7 +30,7 @@ class AirColumns {
   std::vector<glm::vec3> columns_;
 };
 
-/// What is left of the sun's light at radius `r` when it stands `sun_mu` (cosine) above, setting disc
+/// Transmittance of the sun's light at radius `r` when it stands `sun_mu` (cosine) above, setting disc
 /// included.
 Spectrum sunlight(const AirCoefficients& air, double r, double sun_mu);
 
@@ -43,12 +44,13 @@ class Atmosphere {
   /// The scattering and absorption coefficients of that air.
   const AirCoefficients& coefficients() const { return coefficients_; }
 
-  /// What a ray brings, as shares of the sun's irradiance per steradian. Haze that scattered sunlight once is
-  /// kept apart, without its phase function: its glare about the sun is too narrow for a table of directions.
+  /// Radiance along a ray, as a fraction of the sun's irradiance per steradian. Haze that scattered sunlight
+  /// once is kept apart, without its phase function: its glare about the sun is too narrow for a table of
+  /// directions.
   struct View {
     Spectrum radiance, haze_once;
   };
-  /// From a height above the ground in a unit direction; both are in a frame with z up.
+  /// The radiance seen from a height above the ground in a unit direction, in a frame with z up.
   View view(double height_m, glm::dvec3 direction, glm::dvec3 to_sun, int steps = 48) const;
 
   /// How many orders of scattering were added.

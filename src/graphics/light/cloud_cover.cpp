@@ -11,7 +11,7 @@ namespace parvis::light {
 namespace {
 
 constexpr double cloud_height_m = 2000.0;
-/// Of a cumulus, its lit and its shaded side taken together, and of land.
+/// Albedo of a cumulus, its lit and its shaded side taken together, and of land.
 constexpr float cloud_albedo = 0.4f, land_albedo = 0.2f;
 /// Mean luminance of what a photograph shows.
 struct Means {

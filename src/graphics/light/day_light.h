@@ -16,10 +16,10 @@
 
 namespace parvis::light {
 
-/// What the nodes dayLight and skyDome say of a scene.
+/// Settings of a scene by the nodes dayLight and skyDome.
 struct DayLight {
   static constexpr std::string_view name = "light.day_light";
-  /// What it makes, sun and sky, is hashed where it is kept.
+  /// Its results, sun and sky, are hashed where they are kept.
   static constexpr scene::DataRole role = scene::DataRole::settings;
 
   bool is_given = false;                  ///< the scene has a node dayLight

@@ -351,7 +351,7 @@ TEST(SunPathNode, TheLastDayOfALeapYearFollowsIntoTheNext) {
   EXPECT_FALSE(shown_vertices(running.path(), of_days).empty());
 }
 
-/// What cannot be has no part in the scene's data either: others read it.
+/// An impossible day has no part in the scene's data either: others read it.
 TEST(DayLightNode, ADayThatTheYearLacksLeavesThePlaceAndTimeAsTheyWere) {
   RunningSunPath running("dayLight(year=2026, julianDay=80)\nsunPath()\n");
   const PlaceAndTime before = running.scene().data<DayLight>().when;

@@ -68,7 +68,7 @@ struct DaylightHours {
   }
 };
 
-/// To within a second.
+/// The hours of daylight, to within a second.
 DaylightHours daylight_hours(PlaceAndTime day, double elevation_deg = sunrise_elevation_deg);
 
 }  // namespace parvis::light

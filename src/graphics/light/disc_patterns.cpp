@@ -7,7 +7,7 @@
 namespace parvis::light {
 namespace {
 
-/// In [0, 1), another for each number (PCG's output function, O'Neill 2014).
+/// A number in [0, 1), another for each `value` (PCG's output function, O'Neill 2014).
 float scrambled(std::uint32_t value) {
   value = value * 747796405u + 2891336453u;
   value = ((value >> ((value >> 28) + 4)) ^ value) * 277803737u;

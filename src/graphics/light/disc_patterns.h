@@ -33,13 +33,13 @@ inline constexpr std::size_t vertices_per_turn = 8;
 /// pattern. Rays that bring bounces come first, then the others, each by their angles.
 class DiscPatterns {
  public:
-  /// Of so many rays from the one of number `first` on.
+  /// Patterns of `count` rays from number `first` on.
   DiscPatterns(int first, int count);
   /// Those of a vertex.
   std::span<const DiscPoint> of(std::size_t vertex) const {
     return {points_.data() + vertex / vertices_per_turn % pattern_count * count_, count_};
   }
-  /// Of these, those that bring bounces.
+  /// Those of them that bring bounces.
   std::span<const DiscPoint> bounces_of_vertex(std::size_t vertex) const {
     return of(vertex).first(bounces_);
   }

@@ -29,7 +29,7 @@ class Middles {
   std::unordered_map<std::uint64_t, std::uint32_t> found_;
 };
 
-/// Without the vertices that no triangle has.
+/// Appends a mesh without the vertices that no triangle has.
 void append_used(Mesh& result, const Mesh& mesh) {
   constexpr std::uint32_t none = ~0u;
   std::vector<std::uint32_t> place(mesh.positions.size(), none);

@@ -21,13 +21,13 @@ class InsertedShadows {
 
   /// Takes over which things of the scene are photographed.
   void update(const scene::Scene& scene);
-  /// As render::ShadowMethod::renew.
+  /// Follows changes as render::ShadowMethod::renew.
   void renew(const render::FixedChange& change, const Bounds& fixed);
-  /// As render::ShadowMethod::update.
+  /// Draws the maps as render::ShadowMethod::update.
   void draw(const Camera& camera, const scene::SunLight& sun, std::span<const Bounds> moving,
             const render::DrawView& draw);
 
-  /// At render::inserted_shadow_unit.
+  /// Binds the maps at render::inserted_shadow_unit.
   void bind() const;
   /// Its members of the block that all views share.
   void fill(render::Frame& frame) const;

@@ -13,7 +13,7 @@
 namespace parvis::light {
 namespace {
 
-/// What the node says of casters and receivers, until all nodes are built.
+/// The node's casters and receivers until all nodes are built.
 struct ShadowGroups {
   static constexpr std::string_view name = "light.shadow_groups";
   static constexpr scene::DataRole role = scene::DataRole::settings;

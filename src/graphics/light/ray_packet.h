@@ -20,12 +20,12 @@ class Packet {
   /// Empty; the scene must outlive it.
   explicit Packet(const reference::RayScene& scene) : scene_(scene) {}
 
-  /// By what a caller knows a ray.
+  /// The tag by which a caller knows a ray.
   struct Tag {
     std::size_t vertex, ray;  ///< numbers: of a vertex or a place, and of one of its rays
   };
 
-  /// What blended surfaces do follows from the tag.
+  /// Adds a ray; blended surfaces let it pass by its tag.
   void add(glm::vec3 from, glm::vec3 direction, Tag tag) {
     rays_[count_] = {from, direction};
     tags_[count_] = tag;
@@ -35,9 +35,9 @@ class Packet {
   bool is_full() const { return count_ == rays_.size(); }
   /// Number of rays.
   std::size_t count() const { return count_; }
-  /// As it was added.
+  /// The direction as it was added.
   glm::vec3 direction(std::size_t ray) const { return rays_[ray].direction; }
-  /// As it was added.
+  /// The tag as it was added.
   Tag tag(std::size_t ray) const { return tags_[ray]; }
   /// Takes all rays out.
   void clear() { count_ = 0; }
@@ -46,7 +46,7 @@ class Packet {
   std::uint32_t blocked() {
     return count_ > 0 ? scene_.are_blocked(std::span(rays_.data(), count_), {passages_.data(), count_}) : 0;
   }
-  /// What each ray hits first.
+  /// The first hit of each ray.
   std::span<const std::optional<reference::Hit>> hits() {
     if (count_ > 0) scene_.nearest_hits(std::span(rays_.data(), count_), {passages_.data(), count_}, hits_);
     return {hits_.data(), count_};

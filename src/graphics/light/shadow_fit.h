@@ -31,8 +31,9 @@ struct ShadowMap {
   double share = 1.0;         ///< of the memory's side: a map has (share * resolution)^2 texels
 };
 
-/// What a view shows: sampled positions of its surfaces and their depths along its axis, in metres. From
-/// these the methods know how near and far the view really reaches: what the thesis calls updateNear.
+/// The visible surfaces of a view: sampled positions of its surfaces and their depths along its axis, in
+/// metres. From these the methods know how near and far the view really reaches: what the thesis calls
+/// updateNear.
 struct SeenSurfaces {
   std::vector<glm::vec3> positions;
   std::vector<float> depths_m;

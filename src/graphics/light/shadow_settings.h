@@ -25,10 +25,10 @@ inline constexpr std::array shadow_technique_names{"cached_cascades", "cascades"
                                                    "light_space_perspective", "rays"};
 inline constexpr int max_sun_samples = 256;
 
-/// Of a scene; its default is that of a scene without a node shadowMap.
+/// Settings of a scene's shadows; the default is that of a scene without a node shadowMap.
 struct ShadowSettings {
   static constexpr std::string_view name = "light.shadows";
-  /// What it makes of the sun is hashed with the sun.
+  /// Its effect on the sun is hashed with the sun.
   static constexpr scene::DataRole role = scene::DataRole::settings;
 
   ShadowTechnique technique = ShadowTechnique::cached_cascades;

@@ -28,12 +28,12 @@ class SkyModel {
  public:
   virtual ~SkyModel() = default;
 
-  /// Of a unit direction, without the sun's disc (pfSkyModel::getSkySpectralRadiance).
+  /// The sky's radiance in a unit direction, without the sun's disc (pfSkyModel::getSkySpectralRadiance).
   virtual glm::vec3 sky_radiance_xyz(glm::vec3 direction) const = 0;
 
   /// Unit vector to the sun's centre (getSunPosition).
   glm::vec3 to_sun() const { return to_sun_; }
-  /// On a plane that faces the sun; fades while it sets.
+  /// The irradiance on a plane that faces the sun; it fades while the sun sets.
   glm::vec3 sun_irradiance_xyz() const { return sun_irradiance_; }
   /// Mean over the disc (getSunSpectralRadiance).
   glm::vec3 sun_radiance_xyz() const { return sun_irradiance_ / shading::sun_solid_angle_sr; }

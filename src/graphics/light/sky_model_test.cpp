@@ -163,7 +163,7 @@ TEST(SkyModel, RefusesAirThatIsNone) {
             "turbidity=200 is not from 1 (pure air) to 64 (fog); clear days have 2 to 6");
 }
 
-/// What the interface of the appendix says of the sun is what pictures show of it.
+/// The sun's radiance by the appendix's interface is that of pictures.
 TEST(SkyModel, TheRadianceOfTheSunIsThatOfItsDiscInPictures) {
   const auto sky = sky_of(SkyKind::atmosphere, 2.5, 60.0);
   const glm::vec3 radiance = sky->sun_radiance_xyz();

@@ -17,7 +17,7 @@ namespace parvis::light {
 class SkyTable {
  public:
   explicit SkyTable(const SkyModel& sky);
-  /// Of a scene, as its renderer has them: Scene::sky, Scene::sun, and the lamp in the sun's place.
+  /// The light of a scene as its renderer has it: Scene::sky, Scene::sun, and the lamp in the sun's place.
   explicit SkyTable(const scene::Scene& scene);
   /// Radiance of the sky without the sun's disc, from a unit direction.
   glm::vec3 radiance(glm::vec3 direction) const;

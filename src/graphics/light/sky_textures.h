@@ -34,7 +34,7 @@ class SkyTextures {
  private:
   SkyTextures(const scene::Scene& scene, gl::Program program);
 
-  /// What the light was made of.
+  /// The input that the light was made of.
   struct Source {
     std::filesystem::path file;
     int version;

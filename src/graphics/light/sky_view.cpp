@@ -11,7 +11,7 @@ namespace {
 
 using namespace shading;
 
-/// Just above the ground, and so far below level that a ray from there surely ends on it.
+/// A height just above the ground, and a dip so far below level that a ray from there surely ends on it.
 constexpr double viewer_height_m = 1.0, dip_rad = 0.0008;
 
 /// Gives the shared functions the table that a shader has in a sampler.

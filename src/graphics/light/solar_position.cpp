@@ -28,7 +28,7 @@ double periodic_sum(std::span<const PeriodicTerm> terms, double millennia) {
   return 1e-8 * sum;
 }
 
-/// In degrees.
+/// Nutation in degrees.
 struct Nutation {
   double longitude, obliquity;
 };

@@ -11,7 +11,7 @@ namespace {
 constexpr int table_size = 48;
 constexpr double table_first_nm = 365.0, table_step_nm = 10.0;
 
-/// Of the sun above the atmosphere, W/m2/nm: ASTM G-173, column "extraterrestrial".
+/// Irradiance of the sun above the atmosphere, W/m2/nm: ASTM G-173, column "extraterrestrial".
 constexpr double solar_irradiance[table_size] = {
     1.11776, 1.14259, 1.01249, 1.14716, 1.72765, 1.73054, 1.6887,  1.61253, 1.91198, 2.03474,
     2.02042, 2.02212, 1.93377, 1.95809, 1.91686, 1.8298,  1.8685,  1.8931,  1.85149, 1.8504,

@@ -53,7 +53,7 @@ inline double wavelength_nm(int band) { return first_band_nm + band_width_nm * b
 /// lux (or cd/m2 for radiance).
 glm::dvec3 xyz(const Spectrum& share);
 
-/// Of ozone, in m2 per molecule.
+/// Cross section of ozone, m2 per molecule.
 Spectrum ozone_cross_section();
 
 inline constexpr double lumens_per_watt = 683.0;

@@ -12,7 +12,7 @@
 
 namespace parvis::light {
 
-/// What of the ground is judged. Both together: what lies in both.
+/// The part of the ground that is judged. Both together: the part that lies in both.
 struct JudgedGround {
   /// Names or patterns (scene/data/name_pattern.h) of objects, of parts or materials of their models, or of
   /// kinds of photographed things; empty: of all.

@@ -18,7 +18,7 @@ struct SunPoint {
 /// Which suns count.
 struct SunPeriod {
   PlaceAndTime place;  ///< year and clock too; day and hour do not count
-  /// Of the year, both included; `last_day` >= `first_day`, and beyond the year's days in the next ones.
+  /// Days of the year, both included; `last_day` >= `first_day`, and beyond the year's days in the next ones.
   int first_day = 80, last_day = 80;
   int day_step = 1;                ///< every so many days stands for those around it
   double step_h = 1.0 / 15.0;      ///< the sun is looked up at this interval; changes between are bisected

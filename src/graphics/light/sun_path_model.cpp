@@ -19,7 +19,8 @@ constexpr int horizon_steps = 96;
 constexpr std::size_t ring_node = 0, sun_node = 1, first_day_node = 2;
 constexpr std::size_t node_count = first_day_node + (max_path_days + 1) * pieces_per_day;
 
-/// Inside the ring, along it. Not flat: glTF's writer takes transforms apart.
+/// A transform that hides a thing inside the ring, along it. It is not flat: glTF's writer takes transforms
+/// apart.
 glm::mat4 put_away() {
   constexpr float size = 0.006f;
   return {{0, 0, -size, 0}, {0, size, 0, 0}, {size, 0, 0, 0}, {0, 1, 0, 1}};
@@ -117,7 +118,7 @@ void add_part(scene::Model& model, const Mesh& mesh, std::size_t node, int mater
   model.parts.push_back(std::move(part));
 }
 
-/// From a tube of length 1 along z about the origin to one between two points of the sphere.
+/// The transform from a tube of length 1 along z about the origin to one between two points of the sphere.
 glm::mat4 tube_between(glm::vec3 from, glm::vec3 to) {
   const float length = glm::distance(from, to);
   if (length < 1e-6f) return put_away();

@@ -10,7 +10,7 @@
 
 namespace parvis::light {
 
-/// Of the days that a path can show beside the present one: both solstices and the equinox.
+/// The number of days that a path can show beside the present one: both solstices and the equinox.
 inline constexpr std::size_t max_path_days = 3;
 
 /// The pieces of all sun paths, each on a node of its own: the horizon as a ring of radius 1 about the origin

@@ -32,7 +32,7 @@ float near_half_width(const Bounds& place) {
   return is_room(place) ? place.radius() + round_room_m : near_half_width_m;
 }
 
-/// Near the middle of what a viewer sees best, among the heights of the place; the middle of all of a room.
+/// A point near the middle of the best seen part, among the heights of the place; of a room its middle.
 glm::vec3 focus_of(const Camera& camera, const Bounds& place) {
   if (is_room(place)) return place.centre();
   const glm::vec3 forward = camera.forward_in_world();
@@ -171,7 +171,7 @@ void SunShadowMaps::aim_near(const NearMap& near) {
   }
 }
 
-/// Into the map itself, or apart from it for frames in which something moves.
+/// Draws static geometry into the map itself, or apart from it for frames in which something moves.
 void SunShadowMaps::draw_near_fixed(const render::DrawView& draw, bool is_apart) {
   is_apart_ = is_apart;
   drawn_over_.clear();

@@ -74,7 +74,7 @@ void for_each_surface(const scene::Scene& scene, const VisitMesh& visit, bool ha
   });
 }
 
-/// Of the place; of the land around it where there is nothing else.
+/// Bounds of the place; those of the land around it where there is nothing else.
 Bounds bounds_of(const scene::Scene& scene) {
   Bounds bounds;
   for (const bool has_surroundings : {false, true}) {
@@ -89,7 +89,7 @@ Bounds bounds_of(const scene::Scene& scene) {
   return bounds;
 }
 
-/// What lies below a point.
+/// The surface below a point.
 struct SurfaceBelow {
   glm::vec3 position;
   const reference::PlacedPart* place;
@@ -320,7 +320,7 @@ Status write_model(const std::filesystem::path& file, const SunStudy& study) {
   return scene::write_gltf(file, model);
 }
 
-/// What stands upright; the plan has the rest.
+/// A table of upright surfaces; the plan has the rest.
 std::string facade_table(const SunStudy& study) {
   constexpr float steep = 0.7f;  // sine of 45 degrees
   std::string table = "x_m,y_m,z_m,normal_x,normal_y,normal_z,hours\n";

@@ -68,7 +68,7 @@ Result<SunStudy> study_sun(const scene::Scene& scene, const SunStudyOptions& opt
 /// The point of a surface from which a study looks for the sun: 2 cm off it.
 SunPoint lifted(glm::vec3 position, glm::vec3 normal);
 
-/// Of the judged ground of a study of 21 March; its area is 0 where there is none.
+/// The rule's result for the judged ground of a study of 21 March; its area is 0 where there is none.
 OpenSpaceRule open_space_rule(const SunStudy& study);
 
 /// The area and the share that has the hours, as "1234 m2, 61.5 % with 2 h or more".

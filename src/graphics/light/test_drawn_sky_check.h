@@ -9,12 +9,13 @@ namespace parvis::light {
 
 /// Differences in six views of a clear sky; NaN where either side is no number.
 struct DrawnSkyError {
-  /// To the C++ build of what draws: the largest of a channel, relative to the value or to the view's mean
-  /// luminance, whichever is larger.
+  /// The difference to the C++ build of the shader: the largest of a channel, relative to the value or to the
+  /// view's mean luminance, whichever is larger.
   double of_build = 0.0;
   /// The same, relative to the value or to a hundredth of the view's mean luminance.
   double of_build_to_value = 0.0;
-  /// To the model in the same directions: the mean over pixels and channels, relative to the mean luminance.
+  /// The difference to the model in the same directions: the mean over pixels and channels, relative to the
+  /// mean luminance.
   double of_model = 0.0;
   /// The same of a pixel, relative to its own luminance or to a hundredth of the mean: that of which 99 % of
   /// all pixels have less. The aureole and the horizon are the rest.
@@ -22,7 +23,7 @@ struct DrawnSkyError {
   long samples = 0;  ///< channels that were compared
 };
 
-/// From the origin, 90 degrees wide: `face` 0 to 5 together show all directions.
+/// A camera at the origin, 90 degrees wide: `face` 0 to 5 together show all directions.
 Camera view_of_sky(int face);
 
 /// `turned_deg` turns what the drawn sky is compared with: a control. Needs a current OpenGL context.

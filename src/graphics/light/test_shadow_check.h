@@ -23,8 +23,8 @@ struct ShadowErrors {
   void add(const ShadowErrors& other);
 };
 
-/// Of one view of `width` x `height` pixels; `resolution` is the side of the memory that each method may use.
-/// Lookups are moved off the surface by as much as a texel measures there, as renderers do against
+/// Errors in one view of `width` x `height` pixels; `resolution` is the side of the memory that each method
+/// may use. Lookups are moved off the surface by as much as a texel measures there, as renderers do against
 /// self-shadowing.
 ShadowErrors check_shadows(const reference::RayScene& scene, const Bounds& casters, const Camera& camera,
                            int width, int height, glm::vec3 to_sun, int resolution);

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t bits_per_word = 64;
 /// Fraction of the sky before a surface that is open, where the surface's own light is wanted.
 constexpr float open_fraction = 0.5f;
-/// Of surfaces that rooms draw by themselves: photographs of walls.
+/// Albedo of surfaces that rooms draw by themselves: photographs of walls.
 constexpr float wall_albedo = 0.35f;
 
 /// Mean of a texture, or white where the surface has none.
@@ -46,7 +46,7 @@ glm::vec3 on_hemisphere(const reference::Frame& frame, glm::vec2 p) {
   return frame.in_world({p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(p, p)))});
 }
 
-/// Of a lamp in the sun's place: as bright at any distance, within its cone.
+/// Light of a lamp in the sun's place: as bright at any distance, within its cone.
 glm::vec3 spot_light(const reference::RayScene& scene, const SkyTable& sky, const scene::Spot& spot,
                      const LitVertex& vertex, glm::vec3 from, std::size_t v) {
   const glm::vec3 away = spot.position - from;
@@ -199,8 +199,8 @@ class VertexLight::Turn {
     open_.clear();
   }
 
-  /// From the sky, and from matt surfaces, which reflect that of the sun, by a ray each, and of the sky as if
-  /// a fraction of what lies before the surface were open.
+  /// Adds light from the sky, and from matt surfaces, which reflect that of the sun, by a ray each, and of
+  /// the sky as if a fraction of the directions before the surface were open.
   void answer_seen() {
     const std::span<const std::optional<reference::Hit>> hits = seen_.hits();
     for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -271,9 +271,9 @@ void VertexLight::refine(const reference::RayScene& scene, const SkyTable& sky, 
   rays_ += added;
 }
 
-/// What surfaces reflect, in the mean of all rays: the mean over the blocked rays that brought it, times the
-/// fraction of all rays that are blocked (a ratio estimator: Cochran 1977, Sampling techniques, chapter 6).
-/// Fewer rays bring it than are known to be blocked, above all under a new sky.
+/// Light that surfaces reflect, in the mean of all rays: the mean over the blocked rays that brought it,
+/// times the fraction of all rays that are blocked (a ratio estimator: Cochran 1977, Sampling techniques,
+/// chapter 6). Fewer rays bring it than are known to be blocked, above all under a new sky.
 glm::vec3 VertexLight::mean_reflected(std::size_t v) const {
   constexpr std::uint64_t every_third = 0x9249'2492'4924'9249u;
   static_assert(rays_per_bounce == 3);

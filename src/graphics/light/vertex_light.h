@@ -33,17 +33,17 @@ class VertexLight {
   void refine(const reference::RayScene& scene, const SkyTable& sky, int rays,
               Blocked blocked = Blocked::dark);
 
-  /// Of each vertex, linear Rec. 709 in W/m2; zero before the first rays.
+  /// Irradiance of each vertex, linear Rec. 709 in W/m2; zero before the first rays.
   std::vector<glm::vec3> irradiance() const;
   /// The same without the sun that comes straight.
   std::vector<glm::vec3> sky_irradiance() const;
-  /// Of the sun that comes straight.
+  /// Irradiance by the sun that comes straight.
   std::vector<glm::vec3> sun_irradiance() const;
   /// Rays that each vertex has had under this sky and sun.
   int rays() const { return relit_rays_; }
   /// Rays whose directions are known to be open or not, under any sky.
   int sky_rays() const { return rays_; }
-  /// As given.
+  /// The vertices as given.
   const std::vector<LitVertex>& vertices() const { return vertices_; }
 
  private:

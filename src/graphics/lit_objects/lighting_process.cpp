@@ -17,8 +17,8 @@ constexpr double rays_per_ms = 6'000.0;
 constexpr double rays_per_sky_ray = 1.25;
 /// Fewer rays look spotted.
 constexpr int rays_per_round = 16;
-/// In whose time the open directions of a vertex are summed up under a new sky, and what a ray then costs of
-/// one that is asked for all it finds.
+/// Cost of summing the open directions of a vertex under a new sky, in rays; and cost of a ray then, relative
+/// to one that is asked for all that it finds.
 constexpr double rays_per_follow = 8.0, cost_without_sky = 0.6;
 /// Rays: so many that no cost matters.
 constexpr double unlimited = 1e300;
@@ -67,7 +67,7 @@ void LightingProcess::follow_nodes(scene::Scene& scene) {
   rays_.reset();
 }
 
-/// Of those that are not lit yet.
+/// Finds the objects that are not lit yet.
 void LightingProcess::find_objects(scene::Scene& scene) {
   const bool begins = std::exchange(edits_, live_->edits()) < 0;
   object_count_ = scene.objects.size();

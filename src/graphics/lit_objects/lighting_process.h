@@ -29,7 +29,7 @@ class LightingProcess final : public action::Process {
   int rays() const;
 
  private:
-  /// What the sky was made of.
+  /// The input that the sky was made of.
   struct SkySource {
     std::filesystem::path file;
     int version;

@@ -44,11 +44,11 @@ class LitObject {
   int object() const { return object_; }
   /// World bounds of its vertices, as `follow` found them last.
   const Bounds& bounds() const { return bounds_; }
-  /// All of its vertices, for lighting.
+  /// Blocks of all its vertices, for lighting.
   std::vector<VertexBlock>& blocks() { return blocks_; }
   /// The same for reading.
   const std::vector<VertexBlock>& blocks() const { return blocks_; }
-  /// Of both sides.
+  /// Number of vertices of both sides.
   std::size_t vertex_count() const;
 
   /// Compares the stored transforms with those of the scene; where they differ, or the mesh deforms, its
@@ -61,7 +61,7 @@ class LitObject {
 
   /// True where `light` differs from what it was at the last call.
   bool take_news();
-  /// What renderers are to show.
+  /// The light that renderers are to show.
   std::shared_ptr<const scene::LitVertices> light() const;
 
  private:

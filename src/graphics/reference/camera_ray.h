@@ -10,7 +10,7 @@ namespace parvis::reference {
 class CameraRays {
  public:
   CameraRays(const Camera& camera, int width, int height);
-  /// Through `pixel`, counted in pixels from the picture's top left; it begins at the near plane.
+  /// The ray through `pixel`, counted in pixels from the picture's top left; it begins at the near plane.
   Ray through(glm::vec2 pixel) const;
 
  private:
@@ -22,8 +22,8 @@ class CameraRays {
   float parallel_m_;  ///< distance of a parallel view; 0: the camera is none
 };
 
-/// Through `pixel`, counted in pixels from the picture's top left; it begins at the near plane, as the
-/// renderer's picture does.
+/// The ray through `pixel`, counted in pixels from the picture's top left; it begins at the near plane, as
+/// the renderer's picture does.
 Ray camera_ray(const Camera& camera, int width, int height, glm::vec2 pixel);
 
 }  // namespace parvis::reference

@@ -18,7 +18,7 @@ double mean_green(const ImageF& picture) {
   return sum / (picture_side * picture_side);
 }
 
-/// Into the middle of a crown under an even sky.
+/// A camera that looks into the middle of a crown under an even sky.
 Camera into_crown() {
   Camera camera;
   camera.world_from_camera = look_at({0, -30, 5}, {0, 0, 0});

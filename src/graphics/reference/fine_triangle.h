@@ -20,8 +20,8 @@ struct Crossing {
   bool is_back;  ///< the corners go clockwise as the ray sees them
 };
 
-/// By the signed volumes of the ray with each edge; edges belong to the triangle. None for a triangle without
-/// area.
+/// The crossing by the signed volumes of the ray with each edge; edges belong to the triangle. None for a
+/// triangle without area.
 inline std::optional<Crossing> crossing(const FineRay& ray, const std::array<glm::dvec3, 3>& corners) {
   const glm::dvec3 a = corners[0] - ray.origin, b = corners[1] - ray.origin, c = corners[2] - ray.origin;
   const double of_a = glm::dot(ray.direction, glm::cross(c, b)),

@@ -26,7 +26,7 @@ scene::Scene glass_scene(Mesh mesh, const scene::Material& glass = solid_glass()
   return scene;
 }
 
-/// What a ray that hits glass first sees through it.
+/// The exits of a ray that hits glass first.
 std::vector<GlassExit> through(const scene::Scene& scene, const Ray& ray) {
   const RayScene rays(scene);
   const std::optional<Hit> hit = rays.nearest_hit(ray);

@@ -16,7 +16,7 @@ class MipTexture {
   /// Linear colour (or data) and alpha at texture coordinates; `texels` is the width of what the ray sees, in
   /// texels of the finest level.
   glm::vec4 sample(glm::vec2 uv, float texels) const;
-  /// Of the whole texture.
+  /// The mean of the whole texture.
   glm::vec4 mean() const { return texel(levels_.back(), 0, 0); }
   glm::vec2 size() const { return {float(levels_.front().width), float(levels_.front().height)}; }
 

@@ -50,7 +50,7 @@ PathTracer::PathTracer(const RayScene& rays, const scene::Scene& scene, const sh
       haze_per_m_(scene.haze_per_m),
       options_(options) {}
 
-/// Of light found by one strategy, where another finds it with `other_density`.
+/// The weight of light found by one strategy, where another finds it with `other_density`.
 float PathTracer::weight(float density, float other_density, bool is_chosen_light) const {
   if (options_.strategy == LightStrategy::chosen_lights) return is_chosen_light ? 1.0f : 0.0f;
   if (options_.strategy == LightStrategy::scattered_rays) return is_chosen_light ? 0.0f : 1.0f;
@@ -159,7 +159,7 @@ bool PathTracer::goes_on(const ShadingPoint& point, const Scatter& scatter, floa
   return true;
 }
 
-/// At solid glass the path is reflected or refracted, at random in proportion to the light; false where it
+/// Reflects or refracts the path at solid glass, at random in proportion to the light; false where it
 /// ends.
 bool PathTracer::passes_glass(const ShadingPoint& point, float ior, float width_m, Path& path) const {
   const vec3 normal = point.surface.normal, before = path.ray.direction;

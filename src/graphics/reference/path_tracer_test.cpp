@@ -142,8 +142,8 @@ TEST(PathTracer, TheSunsDiscFillsItsSolidAngleWithItsIrradiance) {
   EXPECT_FALSE(sun.contains(glm::normalize(sun.to_middle() + vec3(0.01f, -0.01f, 0))));
 }
 
-/// Inside a glowing sphere a chord meets the wall at one angle at both its ends, so that the light that
-/// leaves solves an equation in that angle alone: L(a) = E + integral of the BRDF times L.
+/// A chord inside a glowing sphere hits the wall at one angle at both its ends, so that the light that leaves
+/// solves an equation in that angle alone: L(a) = E + integral of the BRDF times L.
 std::vector<double> furnace_light(const Surface& s, double emission, int steps) {
   std::vector<double> light(std::size_t(steps), emission);
   const auto at = [&](double cosine) { return light[std::size_t(std::min(cosine * steps, steps - 1.0))]; };
@@ -283,7 +283,7 @@ class FarAway final : public scene::TracedSurface {
   }
 };
 
-/// Within a dome that stands for all that is far away things are lit as without it, by either strategy.
+/// Things within a dome that stands for all that is far away are lit as without it, by either strategy.
 TEST(PathTracer, ABackdropIsSeenAndLightsNothing) {
   const shading::SkyLight sky = constant_sky(1.0f);
   const auto dome = std::make_shared<const Mesh>(scene::sphere(vec3(0.0f), 50.0f, 32));

@@ -25,7 +25,7 @@ struct RecordHeader {
   std::uint64_t checksum;
 };
 
-/// With the key: a tile of other work does not fit, whatever the header says.
+/// The checksum includes the key: a tile of other work does not fit, whatever the header says.
 std::uint64_t checksum(std::uint64_t key, std::uint32_t tile, std::span<const float> values) {
   ContentHash hash;
   hash.add(key), hash.add(tile);

@@ -35,7 +35,7 @@ vec3 beside(vec3 direction, glm::vec2 tangents) {
 /// Where a ray goes on behind a hit.
 float past(float distance_m) { return distance_m * (1.0f + 1e-5f) + 1e-4f; }
 
-/// To a drawn pixel, no longer than where it was drawn or a finer mesh may lie.
+/// A ray to a drawn pixel, no longer than where it was drawn or a finer mesh may lie.
 Ray ray_to(const MirrorPixel& pixel, vec3 eye, float spread) {
   const float distance_m = glm::distance(eye, pixel.position);
   const float within_m = drawn_error_m + drawn_error_px * spread * distance_m;
@@ -46,7 +46,7 @@ Ray ray_to(const MirrorPixel& pixel, vec3 eye, float spread) {
 
 }  // namespace
 
-/// What a ray of a packet hits first, made ready for shading.
+/// The first hit of a ray of a packet, made ready for shading.
 struct PixelTracer::FirstHit {
   bool is_known = false;
   std::optional<Hit> hit;  ///< none: the sky
@@ -130,7 +130,7 @@ vec3 PixelTracer::shade(const ShadingPoint& point, const Hit& hit, const Cone& c
   return light_.radiance(point, hit, s, to_viewer, sun, around, mirrored, ray_count);
 }
 
-/// What enters the eye through solid glass at a point of its surface.
+/// Light that enters the eye through solid glass at a point of its surface.
 vec3 PixelTracer::light_through(const ShadingPoint& point, const Hit& hit, const Cone& cone, int bounce,
                                 LobePoints& lobe_points, std::uint64_t& ray_count) const {
   vec3 sum(0.0f);
@@ -163,7 +163,7 @@ void PixelTracer::trace_from(std::span<MirrorPoint> mirrors, int bounce, std::ui
   for (std::size_t i = 0; i < count; ++i) follow(rays[i], first[i]);
 }
 
-/// What the base and the coat of mirror-like surfaces show, by mirror rays: those of a packet of surfaces
+/// Finds the light of base and coat of mirror-like surfaces by mirror rays: those of a packet of surfaces
 /// that lie side by side run alike.
 void PixelTracer::find_mirror_light(std::span<MirrorPoint> mirrors, int bounce,
                                     std::uint64_t& ray_count) const {
@@ -190,7 +190,7 @@ void PixelTracer::find_mirror_light(std::span<MirrorPoint> mirrors, int bounce,
         [](MirrorPoint& m, vec3 light) { m.light.base += light / float(m.base_rays); });
 }
 
-/// What one mirror-like surface shows.
+/// The light of one mirror-like surface.
 MirrorLight PixelTracer::mirror_light(const ShadingPoint& point, const Hit& hit, const Cone& cone, int bounce,
                                       LobePoints& lobe_points, std::uint64_t& ray_count) const {
   MirrorPoint mirror{point, hit, cone, &lobe_points};
@@ -238,7 +238,7 @@ PixelTracer::MirrorPoint PixelTracer::mirror_in(const MirrorPixel& pixel, const 
   return mirror;
 }
 
-/// Of a mirror ray in this direction.
+/// The cone of a mirror ray in this direction.
 Cone PixelTracer::mirrored_cone(const MirrorPoint& mirror, vec3 direction) {
   const ShadingPoint& point = mirror.point;
   const vec3 away = kept_above(direction, point.geometric_normal);

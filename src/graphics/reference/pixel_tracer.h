@@ -23,7 +23,7 @@ class PixelTracer {
   glm::vec3 radiance(const Cone& cone, LobePoints& lobe_points, std::uint64_t& ray_count,
                      bool& is_mirror) const;
 
-  /// What mirrors show in drawn pixels that lie side by side, at most RayScene::packet_size of them.
+  /// Finds the light of mirrors in drawn pixels that lie side by side, at most RayScene::packet_size of them.
   void find_light_of_mirrors(std::span<const MirrorPixel> pixels, glm::vec3 eye, float spread,
                              std::span<std::optional<MirrorLight>> light) const;
 

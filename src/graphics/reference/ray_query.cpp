@@ -13,7 +13,7 @@
 namespace parvis::reference {
 namespace {
 
-/// What travels with a query to the filters below.
+/// Data that a query passes to the filters below.
 struct QueryContext {
   RTCIntersectContext embree;
   const Places& places;
@@ -83,7 +83,7 @@ bool stops_as_drawn(const Candidate& candidate, bool is_shadow) {
          alpha_of(candidate, is_shadow) >= material.alpha_cutoff;
 }
 
-/// Of a triangle in the world, as the float transform places them.
+/// Corners of a triangle in the world, as the float transform places them.
 std::array<glm::dvec3, 3> fine_corners(const PlacedPart& place, std::uint32_t triangle) {
   const glm::dmat4 world_from_mesh(place.world_from_mesh);
   const std::uint32_t* const index = place.mesh->indices.data() + 3 * std::size_t(triangle);
@@ -123,7 +123,7 @@ double begin_of(const FineRay& ray, float margin_m) {
   return std::max(ray.min_m - double(margin_m), -4.0 * double(margin_m));
 }
 
-/// What single precision says of a candidate along a fine ray.
+/// Verdict of single precision on a candidate along a fine ray.
 enum class Verdict : unsigned char { passes, stops, unsure };
 
 /// `certain_share` is that of ray_scene.cpp: beyond it all weights lie within the triangle itself. Light
@@ -215,7 +215,7 @@ void filter(const RTCFilterFunctionNArguments* arguments) {
       arguments->valid[lane] = 0;
 }
 
-/// Without passages rays see as the renderer draws: no backs of single-sided parts.
+/// Rays without passages see as the renderer draws: no backs of single-sided parts.
 bool asks_about_backs(std::span<const Passage> passages) {
   return passages.empty() || std::ranges::any_of(passages, [](const Passage& p) { return !p.sees_backs; });
 }

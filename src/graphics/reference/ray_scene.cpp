@@ -16,22 +16,22 @@
 namespace parvis::reference {
 namespace {
 
-/// Of single precision, as a share of how far corners and rays lie from the origin: several roundings of 6e-8
-/// each, and as much again to spare.
+/// Error of single precision, as a fraction of the distance of corners and rays from the origin: several
+/// roundings of 6e-8 each, and as much again to spare.
 constexpr float share_of_rounding = 4e-6f;
 
 /// No ray slips between two triangles, and queries bring filters of their own.
 const auto traced_flags = RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 
-/// What a transform makes of a unit volume, negative if it mirrors; 0 if it leads nowhere finite.
+/// The volume of a transformed unit volume, negative if it mirrors; 0 if it leads nowhere finite.
 float volume_of(const glm::mat4& world_from_mesh) {
   const float volume = glm::determinant(glm::mat3(world_from_mesh));
   const glm::vec3 place(world_from_mesh[3]);
   return std::isfinite(volume + place.x + place.y + place.z) ? volume : 0.0f;
 }
 
-/// For each corner of triangles that were grown by `margin`, its triangle's share: a point whose barycentric
-/// weights are all larger lies within the triangle as it was, by as much again as it has been grown.
+/// Sets the share of each corner's triangle, which was grown by `margin`: a point whose barycentric weights
+/// are all larger lies within the triangle as it was, by as much again as it has been grown.
 void set_certain_shares(const glm::vec3* corners, std::size_t count, float margin, float* shares) {
   for (std::size_t i = 0; i + 2 < count; i += 3) {
     const glm::vec3 ab = corners[i + 1] - corners[i], ac = corners[i + 2] - corners[i];
@@ -354,7 +354,7 @@ void RayScene::join(std::size_t place) {
   has_other_joined_ = true;
 }
 
-/// What is hidden or moves after all is an instance of its own from then on.
+/// Makes a placement that is hidden or moves after all an instance of its own.
 void RayScene::leave_joined(std::size_t place) {
   rtcDetachGeometry(joined_, unsigned(place));
   places_[place]->is_joined = places_[place]->is_traced = false;
@@ -390,7 +390,7 @@ bool RayScene::move(std::size_t number, const Mesh& mesh, const glm::mat4& world
   return true;
 }
 
-/// By how much a mesh's triangles are grown in its own frame.
+/// The length by which a mesh's triangles are grown in its own frame.
 float RayScene::margin_in_mesh(const glm::mat4& world_from_mesh) const {
   return margin_m_ / std::cbrt(std::abs(glm::determinant(glm::mat3(world_from_mesh))));
 }
@@ -441,7 +441,7 @@ RTCGeometry RayScene::triangles(const Mesh& mesh, const glm::mat4& transform, fl
   return geometry;
 }
 
-/// As Embree gets them: those of the mesh, or of each triangle by itself, grown.
+/// Sets the corners that Embree gets: those of the mesh, or of each triangle by itself, grown.
 void RayScene::set_corners(const Mesh& mesh, const glm::mat4& transform, float margin, glm::vec3* corners) {
   const bool is_moved = transform != glm::mat4(1.0f);
   const auto placed = [&](std::size_t i) {

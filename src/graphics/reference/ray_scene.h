@@ -83,8 +83,8 @@ struct Passage {
   bool passes_backdrops = false;
 };
 
-/// What decides whether a ray hits a triangle, and which it hits first. A scene answers rays of its precision
-/// alone.
+/// The precision that decides whether a ray hits a triangle, and which it hits first. A scene answers rays of
+/// its precision alone.
 enum class Precision : unsigned char {
   coarse,  ///< Ray: Embree, in single precision, off by some 1e-7 of the scene's size
   fine     ///< FineRay: double precision, with the corners in the world as the float transforms place them
@@ -136,7 +136,7 @@ class RayScene {
   void nearest_hits(std::span<const FineRay> rays, std::span<FineHit> hits) const;
   /// is_blocked of each ray of a packet: bit i is that of ray i.
   std::uint32_t are_blocked(std::span<const FineRay> rays) const;
-  /// Of what is traced, without backdrops and dynamic objects of the scene that this was made of.
+  /// Bounds of traced geometry without backdrops and dynamic objects of the scene that this was made of.
   Bounds fixed_bounds(const scene::Scene& scene) const;
   std::size_t triangle_count() const { return triangle_count_; }  ///< summed over all placements of a mesh
 
@@ -186,7 +186,7 @@ class RayScene {
   float margin_m_ = 0.0f;  ///< by which triangles are grown; 0: Precision::coarse
 };
 
-/// Of a triangle in the world, on the side of its front; of any length.
+/// Normal of a triangle in the world, on the side of its front; of any length.
 glm::vec3 facet_normal(const PlacedPart& place, std::uint32_t triangle);
 
 /// Texture coordinates of a hit, transformed as the material says.

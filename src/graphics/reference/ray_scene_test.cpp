@@ -155,8 +155,8 @@ TEST(RayScene, BentMeshesAreFollowed) {
   expect_same(rays, scene, "at rest again");
 }
 
-/// What rooms draw by themselves is described for each picture; here it wanders, in a mesh of its own each
-/// time.
+/// Things that rooms draw by themselves are described for each picture; here one wanders, in a mesh of its
+/// own each time.
 TEST(RayScene, TracedThingsAreFollowed) {
   class Plain final : public scene::TracedSurface {
     scene::TracedPoint point(const scene::TracedHit& hit) const override { return {.normal = hit.normal}; }

@@ -13,7 +13,7 @@ class SampleSequence {
   /// The numbers of sample `index` of a pixel; other seeds and pixels give independent ones.
   SampleSequence(std::uint64_t seed, std::uint32_t pixel, std::uint32_t index);
 
-  /// In [0, 1) twice. The first 2^k samples of a pixel fall one into each cell of every grid of 2^k equal
+  /// A point in [0, 1)^2. The first 2^k samples of a pixel fall one into each cell of every grid of 2^k equal
   /// cells.
   glm::vec2 next_2d();
   float next_1d() { return next_2d().x; }

@@ -14,7 +14,7 @@ using glm::vec2, glm::vec3;
 constexpr float diffuse_spread =
     0.2f;  // of a cone after a diffuse bounce: textures are looked up coarser there
 
-/// About the z axis, as densely as the cosine.
+/// A direction about the z axis with a density proportional to the cosine.
 vec3 cosine_direction(vec2 uniforms) {
   const float radius = std::sqrt(uniforms.x), turn = 2.0f * glm::pi<float>() * uniforms.y;
   return {radius * std::cos(turn), radius * std::sin(turn), std::sqrt(std::max(0.0f, 1.0f - uniforms.x))};

@@ -19,7 +19,7 @@ enum class LampKind : std::uint8_t {
 /// The lamps that burn, in the world, without depth maps: nodes in their order, each with its objects.
 std::vector<shading::Lamp> lit_lamps(const scene::Scene& scene, LampKind kind = LampKind::all);
 
-/// From a surface to the glass of a lamp.
+/// The ray from a surface to the glass of a lamp.
 Ray ray_to_lamp(const shading::Lamp& lamp, glm::vec3 position, glm::vec3 geometric_normal);
 
 }  // namespace parvis::reference

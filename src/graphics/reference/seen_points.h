@@ -8,8 +8,9 @@
 
 namespace parvis::reference {
 
-/// What every `step`-th pixel of each picture sees in its centre, coloured by `photographs` (8-bit, one for
-/// each picture, of its size). Points that one picture alone sees are kept: some scenes have one camera.
+/// Points that every `step`-th pixel of each picture sees in its centre, coloured by `photographs` (8-bit,
+/// one for each picture, of its size). Points that one picture alone sees are kept: some scenes have one
+/// camera.
 std::vector<scene::SeenPoint> seen_points(const RayScene& rays,
                                           const std::vector<scene::TakenPicture>& pictures,
                                           const std::vector<Image8>& photographs, int step);

@@ -31,7 +31,7 @@ Corners corners_of(const Hit& hit) {
   return corners;
 }
 
-/// What a triangle's corners have, at the point that was hit.
+/// Values at a triangle's corners, interpolated at the point that was hit.
 template <class T>
 T interpolated(const Hit& hit, const std::vector<T>& values) {
   const std::uint32_t* vertex = vertices_of(hit);
@@ -66,8 +66,8 @@ vec3 unit_or(vec3 vector, vec3 facet) {
   return area > 0.0f ? facet / area : vec3(0.0f, 0.0f, 1.0f);
 }
 
-/// Of the normals along the edges (Akenine-Moeller et al. 2021, Improved Shader and Texture Level of Detail
-/// Using Ray Cones, measure it between pixels).
+/// Curvature by the normals along the edges (Akenine-Moeller et al. 2021, Improved Shader and Texture Level
+/// of Detail Using Ray Cones, measure it between pixels).
 float curvature_per_m(const Corners& corners, vec3 facet) {
   float sum = 0.0f;
   for (int k = 0; k < 3; ++k) {

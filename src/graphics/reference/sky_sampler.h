@@ -20,7 +20,7 @@ class SkySampler {
     glm::vec2 uv;         ///< where it falls in the picture
     float density;        ///< per steradian
   };
-  /// From two uniform numbers.
+  /// Chooses a direction from two uniform numbers.
   Choice choose(glm::vec2 uniform) const;
   /// How densely `choose` chooses near a place of the picture, per steradian.
   float density(glm::vec2 uv) const;

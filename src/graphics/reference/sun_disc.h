@@ -31,7 +31,7 @@ class SunDisc {
     const float w = uniform.x * depth(), radius = std::sqrt(w * (2.0f - w)), turn = 6.2831853f * uniform.y;
     return frame_.in_world({radius * std::cos(turn), radius * std::sin(turn), 1.0f - w});
   }
-  /// Per steradian.
+  /// The probability density per steradian.
   static float density() { return 1.0f / shading::sun_solid_angle_sr; }
 
  private:

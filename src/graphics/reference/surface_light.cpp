@@ -126,7 +126,7 @@ float SurfaceLight::kept_of_recorded(const ShadingPoint& point, std::uint64_t& r
   return shading::kept_recorded_light(point.kept_in_shadow, facing, visible());
 }
 
-/// What lamps do: by their depth maps, or by exact rays where those replace maps.
+/// Radiance by lamps: by their depth maps, or by exact rays where those replace maps.
 vec3 SurfaceLight::lamp_radiance_at(const ShadingPoint& point, const Surface& s, vec3 to_viewer,
                                     std::uint64_t& ray_count) const {
   if (!lamps_ || lamps_->empty()) return vec3(0.0f);

@@ -35,7 +35,7 @@ class SurfaceLight {
   SurfaceLight(const SurfaceLight&) = delete;
   SurfaceLight& operator=(const SurfaceLight&) = delete;
 
-  /// What a ray shows that hits nothing; the sun's disc only where it is looked at directly.
+  /// Radiance along a ray that hits nothing; the sun's disc only where it is looked at directly.
   glm::vec3 behind_all(glm::vec3 direction, bool is_direct) const;
   /// The radiance of a surface so far away, through the haze.
   glm::vec3 through_haze(glm::vec3 radiance, float distance_m) const;
@@ -45,12 +45,12 @@ class SurfaceLight {
   /// The same with its ray traced, which is counted.
   float sun_visible(const ShadingPoint& point, const Hit& hit, std::uint64_t& ray_count) const;
 
-  /// What the renderer knows of a place.
+  /// The renderer's data of a place.
   Surroundings surroundings_at(const ShadingPoint& point, int object) const;
-  /// What a surface sees in one direction that no ray is traced for: the sky where it is open, and what
-  /// stands before it as bright as the light that it gives.
+  /// Radiance in a direction for which no ray is traced: the sky where it is open, else surfaces as bright as
+  /// the light that they reflect.
   glm::vec3 unmapped_radiance(const Surroundings& around, glm::vec3 direction, float roughness) const;
-  /// What a surface mirrors that no ray is traced for, of what leaves before it leave open.
+  /// Mirrored light where no ray is traced, attenuated by leaves before the surface.
   MirrorLight unmapped_light(const shading::Surface& s, glm::vec3 direction, const Surroundings& around,
                              float openness) const;
 

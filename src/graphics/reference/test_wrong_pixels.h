@@ -12,8 +12,8 @@ struct WrongPixels {
   double percent() const { return 100.0 * wrong / count; }
 };
 
-/// Of the pixels for which `counts(x, y)` is true, those whose green is off by more than `share` of what it
-/// should be, plus `floor`.
+/// Counts pixels, among those for which `counts(x, y)` is true, whose green is off by more than `share` of
+/// the true value, plus `floor`.
 template <class Counts>
 WrongPixels wrong_pixels(const ImageF& picture, const ImageF& truth, float share, float floor,
                          const Counts& counts) {

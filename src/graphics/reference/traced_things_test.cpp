@@ -198,7 +198,7 @@ TEST(TracedThings, PathsSeeThem) {
   EXPECT_FALSE(paths.sample({{1, -5, 0}, {0, 1, 0}}, 1e-3f, numbers, 1).meets_scene);
 }
 
-/// What a photograph shows of all that is far away is seen, and lets sun and sky through.
+/// A backdrop, the photograph of all that is far away, is seen, and lets sun and sky through.
 TEST(TracedThings, LightPassesABackdrop) {
   for (const scene::Alpha alpha : {scene::Alpha::opaque, scene::Alpha::cutout}) {
     const auto is_dark_behind = [&](const scene::TracedPlacing& placing) {
@@ -222,7 +222,7 @@ TEST(TracedThings, LightPassesABackdrop) {
   }
 }
 
-/// Of models that a room places, and of parts of models that are backdrops themselves.
+/// Models that a room places may be backdrops, and so may parts of models.
 TEST(TracedThings, ModelsAreBackdropsAndCastersAsTheySay) {
   auto model = scene::model_of(scene::quad({-2, 0, -2}, {2, 0, -2}, {2, 0, 2}, {-2, 0, 2}),
                                scene::matt(glm::vec3(0.5f)));

@@ -91,8 +91,8 @@ struct MirrorLight {
   bool has_weak_base = false;  ///< the base reflects little
 };
 
-/// What the mirror-like surfaces in these pixels mirror, as trace_picture has it, one sample each: a ray for
-/// the coat, and as many as the pixel asks for a rough base. `eye`: of the picture; `spread`: width of a
+/// Light mirrored by the mirror-like surfaces in these pixels, as in trace_picture, one sample each: a ray
+/// for the coat, and as many as the pixel asks for a rough base. `eye`: of the picture; `spread`: width of a
 /// pixel at one metre. `light` has one entry per pixel: none where rays find no such surface near `position`.
 void trace_mirrors(const RayScene& rays, const scene::Scene& scene, const shading::SkyLight& sky,
                    glm::vec3 eye, float spread, std::span<const MirrorPixel> pixels,

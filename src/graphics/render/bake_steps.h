@@ -15,7 +15,7 @@
 
 namespace parvis::render {
 
-/// What a bake step works on: one state of a scene. Not copied: it owns the renderer.
+/// The input of a bake step: one state of a scene. It cannot be copied: it owns the renderer.
 class BakeInput {
  public:
   /// The arguments outlive it. `plan`: where to write a picture of what is baked, seen from above; empty:
@@ -35,7 +35,7 @@ class BakeInput {
   Result<Renderer*> renderer();
   /// Steps that know places write their picture here; empty: it is not wanted.
   const std::filesystem::path& plan() const { return plan_; }
-  /// All of them run each step; the first one alone writes files.
+  /// The processes, all of which run each step; the first one alone writes files.
   const machines::Processes& processes() const { return processes_; }
 
  private:
@@ -47,7 +47,7 @@ class BakeInput {
   std::unique_ptr<Renderer> renderer_;
 };
 
-/// What a step has kept of one state.
+/// The results of a step for one state.
 struct Baked {
   std::set<std::filesystem::path> kept;  ///< files or folders, named by the hash of all that they depend on
   std::string summary;                   ///< a line for the user; empty: this state has nothing for the step

@@ -30,8 +30,8 @@ enum TextureUnit : GLuint {
 /// Bindings of uniform blocks; rooms above take those from `first_block_above` on.
 enum UniformBlock : GLuint { frame_block, material_block, bodies_block, first_block_above };
 
-/// To be called once for each program that includes frame.glsl, material.glsl, body_lookup.glsl,
-/// sky_lookup.glsl or sun_lookup.glsl. What the program lacks of them is left out.
+/// Assigns units and blocks; called once for each program that includes frame.glsl, material.glsl,
+/// body_lookup.glsl, sky_lookup.glsl or sun_lookup.glsl. What the program lacks of them is left out.
 inline void assign_bindings(const gl::Program& program) {
   constexpr const char* samplers[]{
       "base_colour_texture",  "normal_texture",   "surface_texture",        "emission_texture",

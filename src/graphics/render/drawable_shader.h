@@ -7,7 +7,7 @@
 
 namespace parvis::render {
 
-/// What a room writes of its shaders; files as gl::Program takes them.
+/// The files of a room's shaders, as gl::Program takes them.
 struct DrawableShader {
   /// Defines `void surface_vertex()`; see surface_outputs.glsl. Attributes and uniforms are the room's own.
   std::string vertex_path;

@@ -30,10 +30,10 @@ class Drawables {
   /// without ground truth.
   void add(DrawableKind kind);
   const DrawableKind* find(std::string_view name) const;  ///< null if no kind has that name
-  /// In the order in which they were added.
+  /// The kinds in the order in which they were added.
   const std::vector<DrawableKind>& kinds() const { return kinds_; }
 
-  /// To be called for each scene that is loaded: from then on renderers and ray tracers show these kinds.
+  /// Makes renderers and ray tracers show these kinds; called for each scene that is loaded.
   void furnish(scene::Scene& scene) const;
   /// A kind's drawable in a scene.
   struct Made {

@@ -109,7 +109,7 @@ FoliageLevel with_pieces(const Mesh& mesh, const Pieces& pieces, std::uint32_t l
   return level;
 }
 
-/// Of the pieces whose order is below `limit`.
+/// Area of the pieces whose order is below `limit`.
 double area_m2(const std::vector<Piece>& pieces, std::uint32_t limit) {
   double sum = 0.0;
   for (const Piece& piece : pieces) sum += piece.order < limit ? piece.area_m2 : 0.0;

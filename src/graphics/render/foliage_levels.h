@@ -17,7 +17,8 @@ inline constexpr int max_foliage_levels = 7;  ///< one leaf in 17
 struct FoliageLevel {
   Mesh mesh;
   std::vector<std::uint32_t> vertices;  ///< of the finest mesh, one for each of `mesh`
-  /// As the error of a surface (MeshLevel::error_m): a small, fixed share of the mean size of its leaves.
+  /// The error as that of a surface (MeshLevel::error_m): a small, fixed fraction of the mean size of its
+  /// leaves.
   float error_m = 0.0f;
 };
 

@@ -144,7 +144,7 @@ TEST(FoliageLevels, ChangeThePictureLessThanAStepOfTheEye) {
             reference::compare(picture(whole, near, 2.0f / near), before)->flip);
 }
 
-/// What of each vertex is seen from outside at most.
+/// The fraction of each vertex that is seen from outside at most.
 std::vector<float> max_seen_of(const Mesh& foliage) {
   scene::Scene place;
   scene::add(place, scene::model_of(foliage, scene::leaf_material({0.10f, 0.22f, 0.05f}, 0.3f)));

@@ -14,7 +14,7 @@ struct EyeView {
   int width, height;
 };
 
-/// What a frame is made of besides its views.
+/// The steps of a frame besides its views.
 struct FrameSteps {
   Subjects subjects = Subjects::all;
   const std::vector<std::uint8_t>* shown_objects = nullptr;  ///< as View has it

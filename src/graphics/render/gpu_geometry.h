@@ -28,8 +28,8 @@ class GpuGeometry {
     float openness;  ///< scene::LeafOpenness
   };
 
-  /// What only some meshes have: a second buffer, with an entry for each vertex if any mesh of the scene has
-  /// it.
+  /// Attributes that only some meshes have: a second buffer, with an entry for each vertex if any mesh of the
+  /// scene has it.
   struct Detail {
     glm::vec4 colour{1.0f};
     glm::vec2 second_uv{0.0f};

@@ -113,7 +113,7 @@ GpuScene::GpuScene(const scene::Scene& scene) {
   std::ranges::transform(scene.objects, is_visible_.begin(), &scene::Object::is_visible);
 }
 
-/// All of the scene that are not there yet; hidden until the next update.
+/// Adds all objects of the scene that are not there yet; hidden until the next update.
 void GpuScene::add_objects(const scene::Scene& scene) {
   const std::size_t first_object = first_part_.size(), known_materials = materials_.size();
   const std::vector<const scene::Model*> models = add_models(scene);
@@ -157,7 +157,7 @@ std::vector<const scene::Model*> GpuScene::add_models(const scene::Scene& scene)
   return models;
 }
 
-/// For dynamic objects and for models placed many times: only they are far away as a whole.
+/// Adds levels for dynamic objects and for models placed many times: only they are far away as a whole.
 void GpuScene::add_surface_levels(const scene::Scene& scene) {
   std::unordered_map<const scene::Model*, int> uses;
   for (const scene::Object& object : scene.objects) uses[object.model.get()] += object.is_dynamic ? 2 : 1;
@@ -182,7 +182,7 @@ void GpuScene::add_surface_levels(const scene::Scene& scene) {
   }
 }
 
-/// For all foliage: of one tree already there are more leaves than a picture shows from across a street.
+/// Adds levels for all foliage: one tree alone has more leaves than a picture shows from across a street.
 void GpuScene::add_foliage_levels(const scene::Scene& scene, const std::vector<const scene::Model*>& models) {
   struct Foliage {
     const Mesh* mesh;
@@ -296,7 +296,7 @@ void GpuScene::upload_textures(const scene::Model& model) {
   for (std::size_t i = 0; i < levels.size(); ++i) textures_.push_back(upload(model.textures[i], levels[i]));
 }
 
-/// Of a model whose textures are there. Returns the index of the first.
+/// Adds materials of a model whose textures are there. Returns the index of the first.
 int GpuScene::add_materials(const scene::Model& model, const std::vector<scene::Material>& materials) {
   const std::size_t first_texture = first_texture_of_model_.at(&model);
   const int first = int(materials_.size());
@@ -389,7 +389,7 @@ void GpuScene::place(const scene::Scene& scene, std::size_t o) {
   world_from_model_[o] = object.world_from_model;
 }
 
-/// What light passes (leaves, glass) hides no sky.
+/// A part that light passes (leaves, glass) hides no sky.
 bool GpuScene::hides_sky(const PartRange& part) const {
   return part.casts_shadow && materials_[std::size_t(part.material)].pass == Pass::opaque;
 }

@@ -69,7 +69,7 @@ struct GpuMaterial {
 
 /// One part of one object. `record` is its per-instance vertex data.
 struct Item {
-  /// Per-instance data of the vertex shader, as it lies in the buffer.
+  /// Data per instance of the vertex shader, as it lies in the buffer.
   struct Record {
     glm::vec4 rows[3];  ///< of world_from_mesh
     std::uint32_t object;

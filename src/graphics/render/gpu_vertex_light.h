@@ -27,7 +27,7 @@ class GpuVertexLight {
   /// Texel of the first vertex of a part, on the side of its normals and on the other one; the two are the
   /// same where the part has light on one side. Zero for objects that are not lit.
   glm::ivec2 first_texels(std::size_t object, std::size_t part) const;
-  /// At `vertex_light_unit`; does nothing where no object is lit.
+  /// Binds the light at `vertex_light_unit`; does nothing where no object is lit.
   void bind() const;
 
  private:

@@ -16,7 +16,7 @@ class HeldDrawables {
   /// Takes over the scene as it is now: the objects of the last call, and new ones behind them. Fails only if
   /// a shader does.
   Status follow(const scene::Scene& held, const Drawables& kinds);
-  /// What draws it.
+  /// The drawables of the scene.
   std::span<Drawable* const> all() const { return all_; }
 
  private:

@@ -37,7 +37,7 @@ class LightOver : public LightSource {
   }
 
  protected:
-  /// What this one is laid over.
+  /// The light over which this one is laid.
   const LightSource& below() const { return *below_; }
 
  private:

@@ -21,7 +21,8 @@ using DrawView = std::function<void(const View&)>;
 /// the sun and the distance of the surface from the viewer, bottom row first. 0: there is none.
 using TracedSun = GLuint;
 
-/// What of the sun each point sees, by maps that are drawn for the viewer; sun_lookup.glsl looks them up.
+/// The fraction of the sun that each point sees, by maps that are drawn for the viewer; sun_lookup.glsl looks
+/// them up.
 class ShadowMethod {
  public:
   virtual ~ShadowMethod() = default;
@@ -34,7 +35,7 @@ class ShadowMethod {
   /// A main view of an eye is about to be drawn, of so many pixels. Its sun, where the method finds it pixel
   /// by pixel: good until the next call.
   virtual TracedSun trace_view(const Camera& /*camera*/, int /*width*/, int /*height*/) { return 0; }
-  /// At `shadow_unit`.
+  /// Binds the maps at `shadow_unit`.
   virtual void bind() const = 0;
   /// Matrices and texel sizes for the shaders' uniform block.
   virtual const shading::ShadowMaps& maps() const = 0;
@@ -81,7 +82,7 @@ class LightSource {
   // What the ray tracer needs to agree with the picture.
   /// Sky radiance, its mipmap levels and its irradiance, as the renderer uses them.
   virtual const shading::SkyLight& sky() const = 0;
-  /// What the static scene leaves of the sky at each place.
+  /// The sky that the static scene leaves visible at each place.
   virtual const shading::SkyVisibility& sky_visibility() const = 0;
   /// The lamps that are lit; null where there are none.
   virtual const shading::LampTable* lamps() const { return nullptr; }

@@ -8,8 +8,8 @@ namespace parvis::render {
 
 class PictureScale {
  public:
-  /// What the last frame took; those that follow are drawn with fewer pixels or with more, as `budget_ms` has
-  /// it (0: none, all pixels). Frames within a few percent of it leave the size alone.
+  /// Takes the time of the last frame; those that follow are drawn with fewer pixels or with more, as
+  /// `budget_ms` has it (0: none, all pixels). Frames within a few percent of it leave the size alone.
   void frame_took(double frame_ms, double budget_ms);
 
   /// The size at which a picture of this size is drawn: at least one pixel.

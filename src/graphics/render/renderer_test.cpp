@@ -222,7 +222,7 @@ TEST_F(RendererTest, AShadowGoesWithItsObject) {
   EXPECT_LT(lit_at(5), 0.6f * lit_at(-5));
 }
 
-/// Under a box on wheels the road is dark, in the shadow of the sun and out of it, and the ray tracer's
+/// The road under a box on wheels is dark, in the shadow of the sun and out of it, and the ray tracer's
 /// function says by how much.
 TEST_F(RendererTest, AMovingBodyDarkensTheRoadBelowIt) {
   scene::Scene scene;

@@ -185,7 +185,7 @@ void SceneDrawable::gather(const View& view, const Culling& culling, ViewList& l
   sort(list);
 }
 
-/// Of what the main view shows, those that mirror: the nearest in each pixel, be it of glass.
+/// Gathers the mirrors that the main view shows: the nearest in each pixel, be it of glass.
 void SceneDrawable::gather_mirrors(const View& view, ViewList& list) const {
   constexpr std::uint64_t below_pass = (std::uint64_t(1) << 62) - 1;
   list.order.clear();
@@ -253,7 +253,7 @@ void SceneDrawable::draw_commands(const ViewList& list, std::uint32_t first, std
                               GLsizei(count), 0);
 }
 
-/// What has no holes needs no material to draw its depth: two calls at most.
+/// Geometry without holes needs no material to draw its depth: two calls at most.
 void SceneDrawable::draw_depth(const ViewList& list) const {
   programs_.solid_depth.use();
   const std::vector<Batch>& batches = list.batches[std::size_t(Pass::opaque)];

@@ -41,7 +41,7 @@ class SceneDrawable final : public Drawable {
 
   /// Indices of the objects in the main view, ascending: those that reflections should be computed for.
   const std::vector<int>& visible_objects() const { return visible_objects_; }
-  /// Of the main view as prepared last.
+  /// Statistics of the main view as prepared last.
   const DrawStatistics& main_statistics() const { return main_list_.statistics; }
   const GpuScene& gpu() const { return gpu_; }  ///< the scene's models and items on the GPU
 
@@ -61,7 +61,7 @@ class SceneDrawable final : public Drawable {
     gl::Program depth, solid_depth, picking;
   };
 
-  /// What one view draws. The main view's list is kept while others are prepared and drawn.
+  /// The draw list of one view. The main view's list is kept while others are prepared and drawn.
   struct ViewList {
     struct Entry {
       std::uint64_t key;  ///< by which entries are sorted

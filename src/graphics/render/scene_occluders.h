@@ -15,7 +15,7 @@ class SceneOccluders {
   void follow_objects(const scene::Scene& scene, const GpuScene& gpu) { keep_moving_shapes(scene, gpu); }
   /// Draws the occluders of a view; things of `gpu` as they were updated last.
   void draw(const View& view, const GpuScene& gpu);
-  /// Of the view drawn last.
+  /// The culler of the view drawn last.
   const OcclusionCuller& culler() const { return culler_; }
 
  private:

@@ -16,12 +16,12 @@ class ScreenScale {
         pixels_at_w_1_(0.5f * float(view.height) *
                        glm::length(glm::vec3(glm::transpose(view.clip_from_world)[1]))) {}
 
-  /// At the nearest place of a sphere about the box; infinity where the eye may be in it.
+  /// Pixels per metre at the nearest place of a sphere about the box; infinity where the eye may be in it.
   float pixels_per_metre(const Bounds& bounds) const {
     const float min_w = glm::dot(w_row_, glm::vec4(bounds.centre(), 1.0f)) - w_per_metre_ * bounds.radius();
     return min_w > 0.0f ? pixels_at_w_1_ / min_w : std::numeric_limits<float>::infinity();
   }
-  /// At a distance along the view; in a parallel view everywhere, for 1.
+  /// Pixels per metre at a distance along the view; in a parallel view everywhere, for 1.
   float pixels_per_metre_at(float distance) const { return pixels_at_w_1_ / distance; }
 
  private:

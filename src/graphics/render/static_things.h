@@ -28,11 +28,11 @@ class StaticThings {
   /// The thing of that number, which has changed if it has another shape or place, or was shown or hidden.
   void update(std::size_t number, const StaticThing& thing);
 
-  /// In the world; empty while the thing is hidden.
+  /// Bounds in the world; empty while the thing is hidden.
   const Bounds& bounds(std::size_t number) const { return bounds_[number]; }
   /// True if it appeared or was moved in the last update.
   bool is_newcomer(std::size_t number) const { return is_newcomer_[number] != 0; }
-  /// Of all things after the last update; see Extents.
+  /// Extents of all things after the last update; see Extents.
   Extents extents() const { return {fixed_, {}, {}, bounds_, &change_}; }
 
  private:

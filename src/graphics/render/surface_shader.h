@@ -14,7 +14,7 @@ namespace parvis::render {
 class SurfaceShader {
  public:
   virtual ~SurfaceShader() = default;
-  /// What it is compiled from.
+  /// The source from which it is compiled.
   virtual SurfaceSource source() const = 0;
   /// Binds what the shader needs for one object: textures from `first_unit_above` on, uniforms of `program`.
   virtual void bind(const gl::Program& program, int object) = 0;

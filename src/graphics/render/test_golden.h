@@ -10,7 +10,7 @@
 
 namespace parvis::render {
 
-/// What may differ, in steps of 8 bits of the worst channel. Say why beside each number that is not 0.
+/// Permitted differences, in steps of 8 bits of the worst channel. Say why beside each number that is not 0.
 struct GoldenTolerance {
   int max_difference = 0;         ///< of any pixel
   int failing_difference = 0;     ///< a pixel that differs by more fails

@@ -8,7 +8,7 @@
 
 namespace parvis::render {
 
-/// Without what rooms draw by themselves; a scene that cannot be drawn fails the test and ends it.
+/// A renderer without the drawables of rooms; a scene that cannot be drawn fails the test and ends it.
 inline std::unique_ptr<Renderer> renderer_of(const scene::Scene& scene, const MakeLight& light) {
   Result<std::unique_ptr<Renderer>> made = Renderer::create(scene, {}, light);
   EXPECT_TRUE(made) << to_string(made.errors());

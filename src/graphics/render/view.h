@@ -53,7 +53,7 @@ struct View {
   bool shows_glass = true;  ///< includes refracting materials
   Subjects subjects = Subjects::all;
   VirtualVertices* virtual_vertices = nullptr;  ///< of a mirrored view
-  /// For a view of mirrors: programs for GpuScene::mirror_materials().
+  /// Programs of a view of mirrors for GpuScene::mirror_materials().
   const SurfacePrograms* surface_programs = nullptr;
   bool clears = true;  ///< clears depth first; else it draws over the content
   /// Occlusion culling, for views of no more than 640 x 360 pixels, or of a camera. Not where the view leaves

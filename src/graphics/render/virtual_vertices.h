@@ -22,8 +22,8 @@ class VirtualVertices {
   virtual void prepare() {}
 
   const gl::Program& program_of(const GpuMaterial& material) const { return programs_.of(material, true); }
-  /// Of a surface that a room draws by itself; linked when it is asked for first. Null, with a message on
-  /// standard error, where it does not link.
+  /// The program of a surface that a room draws by itself; linked when it is asked for first. Null, with a
+  /// message on standard error, where it does not link.
   const gl::Program* program_of(const DrawableShader& shader) { return programs_.of(shader); }
 
  protected:

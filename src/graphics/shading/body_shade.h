@@ -21,8 +21,9 @@ std::optional<Body> body_of(const Bounds& in_model, const BodyShape& shape, cons
 /// body_shade_block.glsl.
 using BodyShade = Bodies;
 
-/// Of the bodies, those nearest to the viewer: `max_bodies` in all and `bodies_per_cell` in each cell, over a
-/// square of 156 m. Toward its border, and toward the farthest where there are more, their shade fades.
+/// The shade of the bodies nearest to the viewer: `max_bodies` in all and `bodies_per_cell` in each cell,
+/// over a square of 156 m. Toward its border, and toward the farthest where there are more, their shade
+/// fades.
 BodyShade make_body_shade(std::span<const Body> bodies, vec3 viewer);
 
 /// Share 0..1 of its sky that bodies leave to a surface; `object` does not shade itself.

@@ -12,7 +12,7 @@ namespace parvis::shading {
 
 class Heightfield {
  public:
-  /// Over the horizontal extent of `bounds`, square cells of `cell_m`, larger where more than
+  /// A field over the horizontal extent of `bounds`: square cells of `cell_m`, larger where more than
   /// `max_cells_per_side` of them would be needed.
   explicit Heightfield(const Bounds& bounds, float cell_m = 1.0f, int max_cells_per_side = 2048);
   /// Raises the cells whose middle a mesh covers. Leave out what light passes: leaves, railings. `region`:

@@ -43,7 +43,7 @@ inline constexpr int max_lamps_per_cell = 8;
 /// Most lamps of a table: the grid has 16 bits for a number plus 1.
 inline constexpr std::size_t max_lamps = 65534;
 
-/// Of the first `max_lamps`.
+/// The table of the first `max_lamps` lamps.
 LampTable make_lamp_table(std::vector<Lamp> lamps);
 
 /// lamps_lookup.glsl over a table; `visible(lamp, position, geometric_normal)` says which share of a lamp a
@@ -53,11 +53,11 @@ struct LampLookup {
   const LampTable& table;
   const Visible& visible;
 
-  /// For the lookup.
+  /// The cell's entry, called by the lookup.
   uvec4 lamp_cell(vec3 position) const { return table.cell(position); }
-  /// For the lookup.
+  /// A lamp by its number, called by the lookup.
   const Lamp& lamp_of(int number) const { return table.lamps[std::size_t(number)]; }
-  /// For the lookup.
+  /// The visible fraction of a lamp, called by the lookup.
   float lamp_visible(const Lamp& lamp, vec3 position, vec3 geometric_normal) const {
     return visible(lamp, position, geometric_normal);
   }

@@ -8,7 +8,7 @@ namespace {
 const auto unhindered = [](const Lamp&, vec3, vec3) { return 1.0f; };
 using Lookup = LampLookup<decltype(unhindered)>;
 
-/// Above the origin, each as bright as twice the last, so that sums tell which of them were counted.
+/// Lamps above the origin, each as bright as twice the last, so that sums tell which of them were counted.
 std::vector<Lamp> lamps_above(int count) {
   std::vector<Lamp> lamps;
   for (int i = 0; i < count; ++i)

@@ -43,7 +43,7 @@ struct Window {
 #include "graphics/shading/relief.glsl"
 };
 
-/// By how much uv move on the way to depth 1 in a direction so steep, turned at random.
+/// The change of uv on the way to depth 1 in a direction so steep, turned at random.
 vec2 random_way(Random& random, float min_degrees, float max_degrees) {
   const float turn = random.uniform(0.0f, 6.2831853f);
   const float along = 0.25f / std::tan(glm::radians(random.uniform(min_degrees, max_degrees)));

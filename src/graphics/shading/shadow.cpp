@@ -9,7 +9,7 @@ namespace {
 struct ShadowLookup {
   const SunShadow& shadow;
 
-  /// As a sampler2DShadow with linear filtering and clamped edges compares.
+  /// Compares as a sampler2DShadow with linear filtering and clamped edges compares.
   float shadow_compare(int map, vec3 uvz) const {
     const ImageF& depth = shadow.depth[std::size_t(map)];
     if (depth.empty()) return 1.0f;

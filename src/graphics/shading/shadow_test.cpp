@@ -39,7 +39,7 @@ TEST(Shadow, LiesUnderTheRoofAndNotBesideIt) {
   EXPECT_EQ(sun_at(shadow, 20, 60), 1.0f) << "above the roof";
 }
 
-/// What faces the sun is looked up half a texel nearer to it.
+/// A surface that faces the sun is looked up half a texel nearer to it.
 TEST(Shadow, ASurfaceDoesNotShadeItself) {
   const SunShadow shadow = roof_in_the_west();
   EXPECT_EQ(sun_at(shadow, 20, 50), 1.0f);

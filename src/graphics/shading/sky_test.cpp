@@ -49,7 +49,7 @@ TEST(Sky, AConstantSkyOfRadianceOneGivesIrradiancePi) {
   }
 }
 
-/// Also at the poles, about which all columns of a picture lie.
+/// The poles, about which all columns of a picture lie, are tested, too.
 TEST(Sky, APictureThatIsTurnedIsBlurredAsThePictureBefore) {
   Random random(3);
   ImageF picture(128, 64, 3), turned(128, 64, 3);

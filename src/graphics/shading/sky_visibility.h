@@ -22,7 +22,7 @@ struct SkyVisibility {
   glm::vec4 at(glm::vec3 coordinates) const;
 };
 
-/// What stands for light that surfaces reflect onto each other.
+/// The model of light that surfaces reflect onto each other.
 enum class WallLight : std::uint8_t {
   constant,  ///< walls and ground give back a share of the sky that they see
   none       ///< it is added elsewhere: shading/bounced_light.h
@@ -31,7 +31,7 @@ enum class WallLight : std::uint8_t {
 /// Cells of about 4 x 4 x 3 m. An empty place is open.
 SkyVisibility make_sky_visibility(const Heightfield& heights, WallLight walls = WallLight::constant);
 
-/// As far as heights are looked at from a cell.
+/// The distance from a cell within which heights are considered.
 inline constexpr float sky_visibility_reach_m = 75.0f;
 
 /// Brings `visibility` up to date where heights changed within `changed`: computes only cells near it, unless

@@ -20,7 +20,7 @@ inline std::array<float, 9> sh_basis(glm::vec3 d) {
           0.546274f * (d.x * d.x - d.y * d.y)};
 }
 
-/// By what the cosine lobe multiplies each harmonic: pi, 2 pi / 3, pi / 4 by order.
+/// The factor of the cosine lobe on each harmonic: pi, 2 pi / 3, pi / 4 by order.
 inline constexpr std::array<float, 9> cosine_lobe{3.1415927f, 2.0943951f, 2.0943951f, 2.0943951f, 0.7853982f,
                                                   0.7853982f, 0.7853982f, 0.7853982f, 0.7853982f};
 

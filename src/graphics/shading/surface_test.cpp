@@ -13,7 +13,7 @@ Surface surface(float base, float metallic, float roughness, float coat = 0.0f) 
 
 vec3 at_angle(float cosine) { return {std::sqrt(1.0f - cosine * cosine), 0.0f, cosine}; }
 
-/// What a surface sends to the viewer when light of radiance 1 comes from everywhere above it: integrated
+/// Radiance of a surface toward the viewer under light of radiance 1 from everywhere above it: integrated
 /// over the hemisphere at the middles of cells that are small near the normal and opposite to the viewer,
 /// where highlights are.
 float furnace(const Surface& s, vec3 to_viewer) {
@@ -35,8 +35,8 @@ float furnace(const Surface& s, vec3 to_viewer) {
 constexpr float roughnesses[]{0.15f, 0.3f, 0.45f, 0.6f, 0.8f, 1.0f};
 constexpr float cosines[]{1.0f, 0.7f, 0.4f, 0.2f};
 
-/// What bounces between facets again comes back, too. Tolerance: the residual of the fitted shares, 0.01, and
-/// that of their means.
+/// Light that bounces between facets again comes back, too. Tolerance: the residual of the fitted shares,
+/// 0.01, and that of their means.
 TEST(WhiteFurnace, WhiteMetalReflectsAll) {
   for (const float cosine : cosines)
     for (const float roughness : roughnesses)
@@ -76,7 +76,8 @@ TEST(WhiteFurnace, TheSurroundingsLightMakesNoLight) {
               << coat << ", " << roughness << ", " << cosine << ", " << metallic;
 }
 
-/// Of the roughest lobe seen from straight above, Smith's integral has a closed form: of l / (1 + l), 0 to 1.
+/// Smith's integral has a closed form for the roughest lobe seen from straight above: the integral of l / (1
+/// + l), 0 to 1.
 TEST(Surface, TheRoughestLobeLosesWhatSmithsIntegralSays) {
   EXPECT_NEAR(lobe_shares(1.0f, 1.0f).lost, std::log(2.0f), 0.01f);
 }

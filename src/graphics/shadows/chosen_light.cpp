@@ -10,7 +10,8 @@ using light::ShadowTechnique;
 constexpr float min_sun_height =
     0.02f;  // sine; below it shadows are longer than any place, and maps degenerate
 
-/// Of more boxes about what has moved a view starts over: to ask each pixel about them takes longer.
+/// Limit of boxes about moved things, above which a view starts over: to ask each pixel about them takes
+/// longer.
 constexpr std::size_t max_moved = 1024;
 
 /// The method of shadow_fit.h, for those that fit maps.

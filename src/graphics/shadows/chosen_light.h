@@ -49,7 +49,7 @@ class ChosenShadows final : public render::ShadowMethod {
 /// The renderer's sun and sky, whose shadows are ChosenShadows.
 class ChosenLight final : public render::LightSource {
  public:
-  /// As render::MakeLight. Fails only if a shader does.
+  /// Creates the light, as render::MakeLight. Fails only if a shader does.
   static Result<std::unique_ptr<render::LightSource>> create(const scene::Scene& scene, const Bounds& fixed);
 
   bool update(const scene::Scene& scene) override {

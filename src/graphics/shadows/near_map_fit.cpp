@@ -33,7 +33,7 @@ double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-/// From the top of the casters to the lowest of them, along the sun.
+/// The range from the top of the casters to the lowest of them, along the sun.
 glm::dvec2 depth_range(const Bounds& casters, glm::dvec3 to_sun) {
   glm::dvec2 range(1e300, -1e300);
   for (int corner = 0; corner < 8; ++corner) {

@@ -49,7 +49,7 @@ class ScriptedShadows : public scene::ScriptTest<gl::ContextTest> {
     EXPECT_TRUE(render::draw_frame(renderer, scene, {camera_, width, height}));
     return renderer.read_radiance();
   }
-  /// With the exact shadows of the ray tracer, and the renderer's light of the sky.
+  /// The picture with the exact shadows of the ray tracer and the renderer's light of the sky.
   ImageF traced(const render::Renderer& renderer, const scene::Scene& scene) const {
     const reference::RayScene rays(scene);
     shading::DrawnLight exact = renderer.drawn_light();
@@ -59,7 +59,8 @@ class ScriptedShadows : public scene::ScriptTest<gl::ContextTest> {
     options.drawn_light = &exact;
     return reference::trace_picture(rays, scene, renderer.sky(), camera_, width, height, options).radiance;
   }
-  /// In the order table, ground under the roof, ground under the awning: S in shadow, L in the light.
+  /// The shade in the order table, ground under the roof, ground under the awning: S in shadow, L in the
+  /// light.
   std::string shade_in(const ImageF& picture) const {
     const auto radiance_at = [&](glm::vec3 point) {
       const glm::vec4 clip = camera_.clip_from_camera(float(width) / float(height)) *

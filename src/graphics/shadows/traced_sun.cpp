@@ -65,7 +65,7 @@ class TracedSun::Tiles {
   }
 
  private:
-  /// Through a pixel's middle.
+  /// The ray through a pixel's middle.
   reference::FineRay ray_through(int x, int row) const {
     const reference::Ray ray = rays_.through({float(x) + 0.5f, float(size_.y - row) - 0.5f});
     return {glm::dvec3(ray.origin), glm::normalize(glm::dvec3(ray.direction)), double(ray.min_m)};

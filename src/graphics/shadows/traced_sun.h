@@ -41,7 +41,7 @@ class TracedSun {
     std::uint64_t scene_version = 0;
     bool operator==(const View&) const = default;
   };
-  /// What a pixel's middle shows.
+  /// The surface in a pixel's middle.
   struct Surface {
     double distance_m = 0.0;  ///< 0: the sky
     glm::vec3 normal{0.0f};   ///< of the triangle, toward the viewer; of any length
