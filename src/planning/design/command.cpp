@@ -17,7 +17,7 @@ constexpr double max_reach_m = 100'000.0;  // from the scene's origin: floats ar
 constexpr double same_place_m = 0.01;
 constexpr std::size_t max_objects = 20'000;
 
-/// What stands in the design, and what a command makes of it, step by step.
+/// The design's objects, as a command changes them step by step.
 class Draft {
  public:
   explicit Draft(const DesignView& view) : view_(view) {}
@@ -64,13 +64,13 @@ class Draft {
 std::string name_of(const Node& node) { return node.text("name"); }
 bool is_surface(const Node& node) { return node.schema->type == surface_type; }
 bool is_placed(const Node& node) { return node.schema->type == placed_type; }
-/// Of a surface or a measurement: the attribute with its points.
+/// The attribute with the points of a surface or a measurement.
 const char* points_of(const Node& node) { return is_surface(node) ? "outline" : "points"; }
 /// "surface" or "measurement", for people.
 const char* what_is(const Node& node) {
   return is_surface(node) ? "surface" : is_placed(node) ? "object" : "measurement";
 }
-/// By which objects that commands make are numbered.
+/// The word before the numbers of objects that commands make.
 std::string stem_of(const Node& node) { return is_surface(node) ? "surface" : node.text("kind"); }
 glm::dvec3 place_of(const Node& node) { return exact_decimals(node.vec3("position")); }
 
@@ -257,7 +257,7 @@ Node made_object(Draft& draft, const Insert& what) {
   return node;
 }
 
-/// What each command changes.
+/// Applies each command to the draft.
 struct Maker {
   Draft& draft;
 
@@ -300,7 +300,7 @@ struct Maker {
     draft.adds(std::move(node));
   }
 
-  /// Of a measurement: whether its points can be measured.
+  /// Checks that a measurement's points can be measured.
   void check(const Node& node) const {
     const Measurement made = measurement(node, "");
     if (Status status = check_measurement(made.quantity, made.points); !status)

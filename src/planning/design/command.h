@@ -125,7 +125,7 @@ struct Rename {
 using Command = std::variant<Insert, Move, Turn, Resize, Delete, Duplicate, Row, Space, Align, Group, Lock,
                              Paint, Swap, Apply, Surface, Measure, MovePoint, Rename>;
 
-/// What a command does to one object.
+/// A command's change of one object.
 struct Change {
   std::optional<scene::Node> before, after;  ///< none: it is not there
   std::string behind =

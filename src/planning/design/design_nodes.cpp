@@ -91,7 +91,7 @@ scene::NodeSchema measured_schema() {
       .example = "design(name=\"a\") { measured(kind=distance, points=\"0 0 0, 3 4 0\") }"};
 }
 
-/// As given, else as usual for the kind. What a round or square plan has only one length for follows the
+/// The size as given, else as usual for the kind. The depth of a round or square plan follows the
 /// width.
 glm::dvec3 size_of(const Node& node, const Kind& kind) {
   glm::dvec3 size = kind.size_m;
@@ -114,7 +114,7 @@ Status check_size(const Node& node, const Kind& kind, const glm::dvec3& size) {
   return Done{};
 }
 
-/// Of five shapes of a plant, by its name.
+/// The seed of one of five shapes of a plant, by its name.
 std::uint64_t seed_of(const std::string& name) {
   ContentHash hash;
   hash.add_text(name);

@@ -23,10 +23,10 @@ struct Difference {
   }  ///< the one there is
 };
 
-/// What turns `before` into `after`. Objects of one kind are the same where they have the same name, or stand
-/// within 5 cm of each other; then they are moved (their foot or heading differs), changed (size, colour or
-/// material) or not listed. All others are removed or added. Removed ones come first, then in the order of
-/// `after`.
+/// The differences that turn `before` into `after`. Objects of one kind are the same where they have the same
+/// name, or stand within 5 cm of each other; then they are moved (their foot or heading differs), changed
+/// (size, colour or material) or not listed. All others are removed or added. Removed ones come first, then
+/// in the order of `after`.
 std::vector<Difference> differences(const std::vector<PlacedObject>& before,
                                     const std::vector<PlacedObject>& after);
 

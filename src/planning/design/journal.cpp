@@ -45,7 +45,7 @@ std::string unescaped(std::string_view text) {
   return result;
 }
 
-/// What a whole, undamaged line says.
+/// The content of a whole, undamaged line.
 std::optional<std::string_view> said_by(std::string_view line) {
   constexpr std::size_t digits = 16;
   if (line.size() < digits + 2 || line[digits] != ' ') return std::nullopt;

@@ -10,7 +10,7 @@
 
 namespace parvis::design {
 
-/// What one line of a journal says.
+/// The content of one line of a journal.
 struct JournalEntry {
   enum class What : std::uint8_t { command, undo, redo, saved };
   What what = What::command;

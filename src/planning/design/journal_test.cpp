@@ -20,7 +20,7 @@ namespace {
 class JournalTest : public DesignTest {
  protected:
   std::filesystem::path file() const { return folder_.path() / ".scene.design.journal"; }
-  /// What the journal gives back.
+  /// The report of a session that reads the journal.
   std::string keep() {
     const Result<std::string> kept = session_->keep_journal(file());
     EXPECT_TRUE(kept) << to_string(kept.errors());
@@ -115,7 +115,7 @@ TEST_F(JournalTest, OneThatIsOfNoUseIsLeftAsItIs) {
   EXPECT_NE(refused(damaged, plain).find("damaged"), std::string::npos);
 }
 
-/// What a program does that is killed: commands of one seed, each acknowledged by a byte when it has
+/// The work of a program that is killed: commands of one seed, each acknowledged by a byte when it has
 /// returned.
 [[noreturn]] void work(Session& session, int acknowledge) {
   Random random(5);

@@ -11,7 +11,7 @@
 
 namespace parvis::design {
 
-/// What may be changed of an object beside its place.
+/// The properties of an object that may be changed beside its place.
 enum class Changeable : std::uint8_t { width, depth, height, colour, material };
 
 /// A kind of object.
@@ -51,7 +51,7 @@ const std::vector<Kind>& shipped_kinds();
 std::vector<Kind> kinds_of(const scene::Scene& scene);
 /// The kind of that name; null: there is none.
 const Kind* find_kind(const scene::Scene& scene, const std::string& name);
-/// What is wrong with a name that is none, with those that are near.
+/// The message for a name that is none, with names that are near.
 std::string no_such_kind(const scene::Scene& scene, const std::string& name);
 
 /// Registers the node `kind`.

@@ -9,7 +9,7 @@
 
 namespace parvis::design {
 
-/// What is measured.
+/// The quantity that is measured.
 enum class Quantity : unsigned char { distance, area, height, slope };
 
 /// Names of the quantities, in the order of the enumeration: "distance", "area", "height", "slope".

@@ -5,7 +5,7 @@
 namespace parvis::design {
 namespace {
 
-/// From the object's frame (x to the right of its front, y ahead) to the plan.
+/// Maps from the object's frame (x to the right of its front, y ahead) to the plan.
 glm::dvec2 in_plan(glm::dvec2 centre, glm::dvec2 right_and_ahead, double heading_deg) {
   const double heading = glm::radians(heading_deg);
   const glm::dvec2 ahead(std::sin(heading), std::cos(heading)), right(ahead.y, -ahead.x);

@@ -25,7 +25,7 @@ class Preview {
   void clear();
   bool is_empty() const { return names_.empty(); }
 
-  /// What is shown: objects of earlier calls stay, hidden, at their indices.
+  /// The scene that is shown: objects of earlier calls stay, hidden, at their indices.
   const scene::Scene& scene() const { return shown_; }
   /// A flag for each object and thing of the scene (render::View::shown_objects): false for those that the
   /// changes take away or put elsewhere.

@@ -223,7 +223,7 @@ Status Session::apply_one(const Change& change, bool forward) {
   return Done{};
 }
 
-/// All of them or none.
+/// Applies all changes or none.
 Status Session::apply(const Changes& changes, bool forward) {
   for (std::size_t i = 0; i < changes.size(); ++i) {
     const Status status = apply_one(changes[forward ? i : changes.size() - 1 - i], forward);

@@ -53,7 +53,7 @@ class Session {
   /// The design as it is; null: it has no objects yet.
   const scene::Node* design() const;
   const std::string& name() const { return name_; }  ///< of the design
-  /// What commands see.
+  /// The design as commands see it.
   DesignView view() const { return {scene_.get(), live_.get(), design(), heights_}; }
   /// Its objects as plain data.
   std::vector<PlacedObject> objects() const;

@@ -10,7 +10,7 @@
 
 namespace parvis::design {
 
-/// What a shape is made to.
+/// The dimensions and looks that a shape is to have.
 struct ShapeRequest {
   glm::vec3 size_m{1.0f};  ///< width along the front, depth, height
   glm::vec3 colour{0.5f};  ///< linear, of its main part

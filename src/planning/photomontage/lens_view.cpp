@@ -10,7 +10,7 @@ namespace {
 constexpr double max_tangent = 3.732;  ///< of 75 degrees
 constexpr double max_drawn_pixels = 64e6;
 
-/// Of a direction in the camera's frame; nothing beyond 75 degrees from the axis.
+/// Tangents of a direction in the camera's frame; nothing beyond 75 degrees from the axis.
 std::optional<glm::dvec2> tangents_of(glm::dvec3 direction) {
   if (-direction.z <= 0.0) return std::nullopt;
   const glm::dvec2 tangents = glm::dvec2(direction) / -direction.z;

@@ -10,7 +10,7 @@
 
 namespace parvis::photomontage {
 
-/// What is set into which photograph.
+/// A photograph and the scene that is set into it.
 struct MontageJob {
   photographs::Photograph photograph;  ///< its camera, in the scene's world
   Image8 picture;                      ///< sRGB RGBA, of the size of its lens

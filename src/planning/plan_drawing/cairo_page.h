@@ -35,9 +35,9 @@ class Page {
     cairo_set_line_cap(context_.get(), CAIRO_LINE_CAP_ROUND);
   }
 
-  /// For what the functions below do not draw.
+  /// The context, for drawings that the functions below do not offer.
   cairo_t* context() const { return context_.get(); }
-  /// Of what is drawn next.
+  /// Sets the colour of the next drawing.
   void set(const Colour& colour, double alpha = 1.0) const {
     cairo_set_source_rgba(context(), colour.red, colour.green, colour.blue, alpha);
   }
@@ -66,14 +66,14 @@ class Page {
   void box(glm::dvec2 min, glm::dvec2 max, double width_mm, const Colour& colour) const {
     path({min, {max.x, min.y}, max, {min.x, max.y}}, true), stroke(width_mm, colour);
   }
-  /// Of a line of text.
+  /// Width of a line of text.
   double text_width(const std::string& text, double height_mm, bool is_bold = false) const {
     font(height_mm, is_bold);
     cairo_text_extents_t extents;
     cairo_text_extents(context(), text.c_str(), &extents);
     return extents.x_advance;
   }
-  /// On its base line; made smaller where it is wider than `max_width_mm`.
+  /// Writes a text on its base line; made smaller where it is wider than `max_width_mm`.
   void text(const std::string& text, glm::dvec2 at, double height_mm, double max_width_mm = 1e3,
             bool is_bold = false, const Colour& colour = black) const {
     const double width = text_width(text, height_mm, is_bold);

@@ -13,7 +13,7 @@
 
 namespace parvis::plan_drawing {
 
-/// Of the plan of the sheet, millimetres.
+/// Size of the sheet's plan, millimetres.
 inline constexpr glm::dvec2 council_plan_mm(285.0, 238.0);
 
 /// A picture of a page.
@@ -46,7 +46,7 @@ struct SunPictures {
   double max_hours = 0.0, max_change_h = 0.0;
   std::vector<std::vector<std::string>> figures;  ///< a table: what, before, after, change
 };
-/// All of them from the hours.
+/// All pictures from the hours.
 SunPictures sun_pictures(const SunDifference& sun);
 
 /// All that the sheet shows.

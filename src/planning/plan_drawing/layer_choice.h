@@ -11,7 +11,7 @@ namespace parvis::plan_drawing {
 
 /// The text without spaces around it.
 std::string trimmed(const std::string& text);
-/// What stands between commas, trimmed, but for what is empty.
+/// The trimmed texts between commas, without empty ones.
 std::vector<std::string> divided_at_commas(const std::string& text);
 
 /// Whether each layer is shown: as the drawing has it, changed by `choice`, names or patterns separated by

@@ -12,7 +12,7 @@
 
 namespace parvis::plan_drawing {
 
-/// What a line of a plan shows; each is a layer of the DXF.
+/// The subject of a line of a plan; each is a layer of the DXF.
 enum class PlanLayer : unsigned char { wall, road, thing, plant, drawing };
 
 /// A polyline in the scene's frame; a closed one has its first point again at the end.
@@ -48,7 +48,7 @@ struct PlanMeasure {
   glm::dvec3 middle{0.0};        ///< where the text stands
   std::string text;              ///< its value with a unit, UTF-8
 
-  /// All of it from the measurement.
+  /// The measure with all members from the measurement.
   static PlanMeasure of(const design::Measurement& measured) {
     return {measured, measured.line(), measured.middle(), measured.text()};
   }

@@ -7,7 +7,7 @@
 namespace parvis::plan_drawing {
 namespace {
 
-/// Without dynamic geometry.
+/// The scene without dynamic geometry.
 scene::Scene at_rest(scene::Scene scene) {
   for (scene::Object& object : scene.objects) object.is_visible = object.is_visible && !object.is_dynamic;
   return scene;

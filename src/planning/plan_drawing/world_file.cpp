@@ -28,7 +28,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Without regard to the case of the extension.
+/// Finds a file beside the picture, without regard to the case of the extension.
 fs::path found_beside(const fs::path& picture, const std::vector<std::string>& extensions) {
   std::error_code code;
   for (const fs::directory_entry& entry : fs::directory_iterator(picture.parent_path(), code)) {

@@ -8,7 +8,7 @@
 
 namespace parvis::plan_drawing {
 
-/// From pixels to the map, in the map's unit.
+/// The map from pixels to the plane, in the map's unit.
 struct WorldFile {
   glm::dvec2 across{1.0, 0.0}, down{0.0, -1.0};  ///< one pixel to the right, one pixel down
   glm::dvec2 first_centre{0.0};                  ///< of the upper left pixel

@@ -49,7 +49,7 @@ std::vector<PlanSegment> lines_near(const SnapTargets& targets, glm::dvec2 p, do
   return near;
 }
 
-/// In line with two others at their distance, or midway between them.
+/// Offers places in line with two others at their distance, or midway between them.
 void offer_spacing(const SnapTargets& targets, Choice& choice) {
   constexpr std::size_t max_middles = 64;  // of those that stand nearest
   const std::vector<glm::dvec2>& middles = targets.middles;

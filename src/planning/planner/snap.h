@@ -13,10 +13,10 @@ namespace parvis::planner {
 /// A line in the plan.
 using PlanSegment = std::array<glm::dvec2, 2>;
 
-/// What holds a point.
+/// The kind of thing that holds a point.
 enum class SnapKind : unsigned char { none, grid, line, spacing, right_angle, crossing, end };
 
-/// What points may come to rest on, in the plan.
+/// Things in the plan on which points may come to rest.
 struct SnapTargets {
   std::vector<PlanSegment> lines;    ///< edges of objects, kerbs, walls, lines of drawings
   std::vector<glm::dvec2> ends;      ///< their ends and corners
@@ -37,7 +37,7 @@ struct Snapped {
 /// of the axes through the origin whatever else holds it.
 Snapped snap(glm::dvec2 wanted, const SnapTargets& targets, double within_m, bool keeps_right_angles = false);
 
-/// What a kind of snap is called, in one of the two languages: see words.h.
+/// Name of a kind of snap in one of the two languages: see words.h.
 const char* name_of(SnapKind kind);
 
 }  // namespace parvis::planner

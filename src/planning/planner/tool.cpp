@@ -20,7 +20,7 @@ reference::Ray ray_of(const Pointer& pointer) {
   return reference::camera_ray(pointer.camera, pointer.size.x, pointer.size.y, glm::vec2(pointer.pixel));
 }
 
-/// To a tenth of a millimetre: what is placed by hand is written with no more digits.
+/// Rounds to a tenth of a millimetre: things placed by hand are written with no more digits.
 glm::dvec2 rounded(glm::dvec2 p) { return glm::round(p * 1e4) * 1e-4; }
 
 double wrapped_deg(double degrees) { return degrees - 360.0 * std::floor(degrees / 360.0); }
@@ -28,7 +28,7 @@ double wrapped_deg(double degrees) { return degrees - 360.0 * std::floor(degrees
 /// Clockwise from north.
 double bearing_deg(glm::dvec2 away) { return glm::degrees(std::atan2(away.x, away.y)); }
 
-/// In the pointer's picture; none: behind the eye.
+/// The pixel of a place in the pointer's picture; none: behind the eye.
 std::optional<glm::dvec2> pixel_of(const Pointer& pointer, const glm::dvec3& place) {
   const glm::vec4 clip = pointer.camera.clip_from_camera(float(pointer.size.x) / float(pointer.size.y)) *
                          pointer.camera.camera_from_world() * glm::vec4(glm::vec3(place), 1.0f);
@@ -197,7 +197,7 @@ design::Command Tool::move_by(glm::dvec2 by) const {
   return design::Move{names, glm::dvec3(by, 0.0)};
 }
 
-/// What a click, or letting go, would do now.
+/// The command that a click, or letting go, would give now.
 std::optional<design::Command> Tool::command_now() const {
   switch (action_) {
     case Action::move: {

@@ -13,7 +13,7 @@
 
 namespace parvis::planner {
 
-/// What the next click does.
+/// The effect of the next click.
 enum class Mode : unsigned char { select, insert, measure, surface };
 
 /// A pointer in a picture.
@@ -26,20 +26,20 @@ struct Pointer {
   bool is_free = false;   ///< Ctrl: nothing snaps
 };
 
-/// What is being done with the pointer.
+/// The present action of the pointer.
 enum class Action : unsigned char { none, move, turn, resize, box, point };
 
 /// A distance that is shown while something moves.
 struct Dimension {
   glm::dvec3 from{0.0}, to{0.0};
-  /// Between its ends.
+  /// Length between its ends.
   double length_m() const { return glm::distance(from, to); }
 };
 
 /// One tool on one design.
 class Tool {
  public:
-  /// All of them outlive it.
+  /// The arguments outlive the tool.
   Tool(const scene::Scene& scene, const scene::LiveScene& live, design::Session& session,
        design::SceneSurfaces& surfaces);
 
@@ -57,7 +57,7 @@ class Tool {
   /// The material of the next surface.
   std::string surface_material = "paving";
 
-  /// What the next clicks measure: two points, or the corners of an area.
+  /// The quantity that the next clicks measure: two points, or the corners of an area.
   design::Quantity quantity() const { return quantity_; }
   /// Takes up measuring; where it is in hand already, the next quantity.
   void choose_measure();
@@ -85,13 +85,13 @@ class Tool {
   Status nudge(const Camera& camera, double right_m, double ahead_m);
   /// A character of a number that is typed during a move; false: it is none.
   bool type(char character);
-  /// What has been typed so far.
+  /// The text typed so far.
   const std::string& typed() const { return typed_; }
   /// Ends a move at the typed distance, or a surface at its corners. Errors as the command's.
   Status confirm();
 
-  /// What was placed or moved last stands in the picture as the pointer held it, until this is called: then
-  /// the picture may be drawn again, with its shadow.
+  /// Releases the object that was placed or moved last. It stands in the picture as the pointer held it,
+  /// until this is called: then the picture may be drawn again, with its shadow.
   void settle();
   /// Is there anything of that kind?
   bool has_unsettled() const { return !unsettled_.empty(); }
@@ -104,7 +104,7 @@ class Tool {
   const std::string& pointed() const { return pointed_; }
   /// The place below the pointer; none: the sky.
   const std::optional<glm::dvec3>& place() const { return place_; }
-  /// What held the point that moves, where it was held.
+  /// The thing that held the moving point, and where.
   const Snapped& snapped() const { return snapped_; }
   /// Height at which the snapped point lies.
   double snapped_height_m() const { return snapped_height_m_; }
@@ -117,7 +117,7 @@ class Tool {
   std::vector<glm::dvec3> corners() const;
   /// The two corners of a box that selects, pixels; none: no box is drawn.
   std::optional<std::array<glm::dvec2, 2>> box() const;
-  /// What the next click does, an English sentence of words.h.
+  /// The effect of the next click, an English sentence of words.h.
   const char* hint() const;
 
   /// The object of the design that made this object or thing of the scene; null: none did.

@@ -40,7 +40,7 @@ class ToolTest : public design::DesignTest {
     tool_->grid_m = 0.0;
   }
 
-  /// Of a place of the world in the picture.
+  /// The pointer at a place of the world in the picture.
   Pointer at(glm::dvec3 place) const {
     Pointer pointer;
     pointer.camera = camera_, pointer.size = size;

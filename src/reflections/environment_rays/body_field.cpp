@@ -205,7 +205,7 @@ vec3 surface_of(const Nearest& nearest, const std::vector<Face>& faces) {
   return faces[std::size_t(nearest.face)].at(nearest.shares);
 }
 
-/// For each cell whether it can be reached from the sides and the top of the box, level or downward, without
+/// Flags of cells that can be reached from the sides and the top of the box, level or downward, without
 /// passing a surface or a gap narrower than a cell: the inside of a body that is open below is not, but for
 /// what lies behind its wheel arches.
 std::vector<std::uint8_t> reached_cells(const Grid& grid, const std::vector<Face>& faces,

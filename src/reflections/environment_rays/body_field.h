@@ -22,8 +22,8 @@ struct BodyField {
   float reach_m() const;     ///< so far from the surface distances are known
 };
 
-/// Of a model's solid parts at rest, in `materials`, the model's or those of an object; what blends is left
-/// out. What is not closed has its inside where its triangles turn their backs.
+/// The field of a model's solid parts at rest, in `materials`, the model's or those of an object; blended
+/// parts are left out. An open part has its inside where its triangles turn their backs.
 BodyField body_field(const scene::Model& model, const std::vector<scene::Material>& materials);
 
 /// The distance at which a ray hits the body, `reach_m` where it does not: as distance_to_body in

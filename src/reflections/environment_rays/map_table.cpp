@@ -67,7 +67,7 @@ void MapTable::forget() {
   std::ranges::fill(map_in_, none);
 }
 
-/// For each map the layer of the nearest one that has a layer; 0 if none has.
+/// The layer, for each map, of the nearest one that has a layer; 0 if none has.
 std::vector<int> MapTable::stand_ins() const {
   std::vector<int> layers = layer_of_;
   for (std::size_t map = 0; map < layers.size(); ++map) {
@@ -85,7 +85,8 @@ std::vector<int> MapTable::stand_ins() const {
   return layers;
 }
 
-/// In place of a map without a layer: the first of the cell's choice that has one, else the nearest.
+/// Uploads the table; a map without a layer is replaced by the first of the cell's choice that has one, else
+/// the nearest.
 void MapTable::upload() {
   const std::vector<int> stand_in = stand_ins();
   std::vector<std::uint16_t> layers(choice_.indices().size());

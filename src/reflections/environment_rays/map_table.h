@@ -29,7 +29,7 @@ class MapTable {
   /// The layers that hold a map, ascending.
   std::vector<std::size_t> drawn_layers() const;
 
-  /// From now on lookups count for a new frame.
+  /// Begins a new frame, for which lookups count from now on.
   void begin_frame() { ++frame_; }
   /// Numbers of the maps without a layer that reflecting points within a box of the world look into; the
   /// others count as looked into in this frame.

@@ -35,7 +35,7 @@ class MirroredBodies {
   void update(const scene::Scene& scene, const std::vector<methods::VisibleReflector>& reflectors);
   /// Binds what mirrored_bodies.glsl needs; `reflecting_body` is the caller's to set.
   void prepare(const gl::Program& program, GLuint unit) const;
-  /// Of an object; below 0: none.
+  /// The body of an object; below 0: none.
   int body_of(int object) const { return body_of_object_[std::size_t(object)]; }
 
   static constexpr int max_bodies = mirrored_bodies_shared::max_mirrored_bodies, max_nearby = 16;

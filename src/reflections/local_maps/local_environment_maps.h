@@ -41,7 +41,7 @@ class LocalEnvironmentMaps final : public methods::Reflections {
   std::optional<LocalMapPlace> place_of(int object) const { return used_[std::size_t(object)].place; }
 
  private:
-  /// What a body looks up in this frame.
+  /// The maps that a body looks up in this frame.
   struct Used {
     std::optional<LocalMapPlace> place;  ///< nothing: simply blended maps
     LocalMapLevel level;

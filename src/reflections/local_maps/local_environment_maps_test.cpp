@@ -68,7 +68,7 @@ class Court {
     return picture;
   }
 
-  /// What the mirror's map shows in a direction.
+  /// The colour of the mirror's map in a direction.
   glm::vec3 shown(glm::vec3 direction, int level = 0) const {
     const LocalMapPlace place = reflections->place_of(mirror).value();
     const glm::vec2 texel = reflections->picture().corner(place.slot) +
@@ -84,8 +84,8 @@ class Court {
   std::unique_ptr<LocalEnvironmentMaps> reflections;
 };
 
-/// What the court shows from within: a wall (0 to 3), the ground (4) or the sky (5), and how clearly: the
-/// least angle, as a share of the distance, by which anything else is missed.
+/// The part of the court seen from within: a wall (0 to 3), the ground (4) or the sky (5), and how clearly:
+/// the least angle, as a share of the distance, by which anything else is missed.
 struct Seen {
   int what;
   float lead;

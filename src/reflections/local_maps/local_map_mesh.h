@@ -37,7 +37,7 @@ struct FaceTask {
   MeshRule rule;
 };
 
-/// As the shader reads it, 32 bytes.
+/// A vertex as the shader reads it, 32 bytes.
 struct LocalMapVertex {
   glm::vec2 texel;  ///< in the picture of all maps
   float ahead_m;    ///< distance of `met` from the centre along the face's axis

@@ -7,7 +7,7 @@
 
 namespace parvis::local_maps {
 
-/// What of local maps is shown in place of reflections, to look into them.
+/// The data of local maps that are shown in place of reflections, to look into them.
 enum class LocalMapView : std::uint8_t {
   radiance,  ///< nothing else
   mesh,      ///< of local maps, in red
@@ -15,7 +15,7 @@ enum class LocalMapView : std::uint8_t {
 };
 inline constexpr std::array local_map_view_names{"radiance", "mesh", "weights"};
 
-/// Of the method local_environment_maps.
+/// Settings of the method local_environment_maps.
 struct LocalMapSettings {
   static constexpr std::string_view name = "local_maps.settings";
   static constexpr scene::DataRole role = scene::DataRole::settings;

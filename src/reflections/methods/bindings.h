@@ -10,7 +10,7 @@ namespace parvis::methods {
 inline constexpr GLuint first_method_unit = render::first_unit_above;
 inline constexpr GLuint first_overlay_unit = first_method_unit + 7;
 
-/// Of a method.
+/// The uniform block of a method.
 inline constexpr GLuint method_block = render::first_block_above;
 
 }  // namespace parvis::methods

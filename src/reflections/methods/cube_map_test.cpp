@@ -38,7 +38,7 @@ class CubeMapTest : public gl::ContextTest {
   std::unique_ptr<render::Renderer> renderer_;
 };
 
-/// From beside the middle of the room nearly every face shows parts of several walls: a face that is
+/// Nearly every face seen from beside the room's middle shows parts of several walls: a face that is
 /// exchanged, turned or mirrored shows.
 TEST_F(CubeMapTest, EveryTexelShowsTheWallInItsDirection) {
   for (const glm::vec3 centre : {glm::vec3(4, 2.5f, -3.5f), glm::vec3(-3.5f, -4.5f, 2)}) {
@@ -155,8 +155,8 @@ TEST_F(CubeMapTest, WhatAFaceDoesNotShowHidesNothingInIt) {
   EXPECT_LT(glm::distance(middle_of_the_face(&shown), blue_light.emission), 0.01f);
 }
 
-/// What a level of a map shows beside what a rough mirror does, over the lobe of the level's roughness: the
-/// mean distance of colours.
+/// Difference of a map's level from a rough mirror over the lobe of the level's roughness: the mean distance
+/// of colours.
 float lobe_error(const CubeMap& map, glm::vec3 centre, int level) {
   constexpr int directions = 2048;
   const int side = resolution >> level;

@@ -13,7 +13,7 @@ TEST(LobeLevels, ALevelHoldsTheRoughnessThatLooksItUp) {
   EXPECT_LT(level_of_roughness(7.0f, 0.02f), 0.0f) << "a mirror shows the sharpest";
 }
 
-/// Of the cosines between the normal and the directions; by the distribution itself, without its directions.
+/// Mean cosine between the normal and the directions, by the distribution itself, without its directions.
 double mean_cosine(double roughness) {
   constexpr int steps = 100000;
   const double alpha_squared = std::pow(roughness, 4.0);

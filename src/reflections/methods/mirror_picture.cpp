@@ -219,8 +219,8 @@ void MirrorPicture::draw_light(
   spread_light(renderer, reflectors);
 }
 
-/// Without second rays: beside pixels with a ray, where a surface covers less than the pixel's middle, the
-/// light of neighbours stands in.
+/// Used without second rays: beside pixels with a ray, where a surface covers less than the pixel's middle,
+/// the light of neighbours stands in.
 void MirrorPicture::spread_light(const render::Renderer& renderer,
                                  const std::vector<VisibleReflector>& reflectors) const {
   begin_light(0);

@@ -35,21 +35,21 @@ enum class RayCount : std::uint8_t {
 /// Deferred reflection: ray picture in, light picture out. Both have a layer for each ray of a pixel.
 class MirrorPicture {
  public:
-  /// For the scene of that renderer. Fails only if a shader does.
+  /// Creates it for the scene of that renderer. Fails only if a shader does.
   static Result<MirrorPicture> create(const render::Renderer& renderer, RayCount rays = RayCount::one);
 
   /// The rays of all mirror-like surfaces that the prepared main view shows; second ones only of these
   /// reflectors, where `create` allows them.
   void draw_rays(render::Renderer& renderer, std::span<const VisibleReflector> with_second_rays = {});
 
-  /// What comes along them. For each reflector `use_program` uses a program of render/whole_screen.vert and a
-  /// fragment shader that reads the layer ray_layer of ray_starts and ray_directions, as mirror_rays.frag
-  /// writes them, and writes the light of base and coat.
+  /// Draws the light along the rays. For each reflector `use_program` uses a program of
+  /// render/whole_screen.vert and a fragment shader that reads the layer ray_layer of ray_starts and
+  /// ray_directions, as mirror_rays.frag writes them, and writes the light of base and coat.
   void draw_light(const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
                   const std::function<const gl::Program&(const VisibleReflector&)>& use_program) const;
 
-  /// For methods that compute the light on the CPU: the first rays of all pixels that may show one of the
-  /// reflectors. A readback, which waits for the GPU.
+  /// Reads, for methods that compute the light on the CPU, the first rays of all pixels that may show one of
+  /// the reflectors. A readback, which waits for the GPU.
   void read_rays(const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors,
                  MirrorRays& rays) const;
   /// The light along them, in place of draw_light: base (alpha 1 where there is some, else 0) and coat.
@@ -57,7 +57,7 @@ class MirrorPicture {
                  const MirrorRays& rays, std::span<const glm::vec4> base,
                  std::span<const glm::vec3> coat) const;
 
-  /// For programs with mirror_picture.frag; takes four texture units.
+  /// Binds textures for programs with mirror_picture.frag; takes four texture units.
   void bind(const gl::Program& program, GLuint first_unit) const;
 
  private:
@@ -82,7 +82,7 @@ class MirrorPicture {
                  const VisibleReflector& reflector) const;
   void spread_light(const render::Renderer& renderer, const std::vector<VisibleReflector>& reflectors) const;
 
-  /// Of the rays drawn last: whether there are second ones, and which objects have them, a flag for each.
+  /// State of the rays drawn last: whether there are second ones, and a flag for each object that has them.
   bool has_second_rays_ = false;
   std::vector<std::uint8_t> are_seconded_;
   int width_ = 0, height_ = 0;

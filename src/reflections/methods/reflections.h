@@ -51,8 +51,8 @@ class Reflections : public render::SurfaceShader {
   /// glass, whose rays leave elsewhere than mirror rays.
   virtual const CubeMap* surroundings_of(int /*object*/) const { return nullptr; }
 
-  /// What the last update took by the clock, and all the rest of its frame: for methods that hold a budget.
-  /// Called in windows alone, so that pictures and films can be repeated.
+  /// Takes the time of the last update, and of the rest of its frame, for methods that hold a budget. Called
+  /// in windows alone, so that pictures and films can be repeated.
   virtual void frame_took(double /*update_ms*/, double /*rest_ms*/) {}
 
   /// Called in windows before each frame: what the method has not drawn yet may be spread over several
@@ -113,7 +113,8 @@ class Overlay : public Reflections {
 
  protected:
   explicit Overlay(std::unique_ptr<Reflections> below) : below_(std::move(below)) {}
-  /// To be called first in update_maps: an overlay may show less, or more, of each reflector.
+  /// Updates the method below; called first in update_maps: an overlay may show less, or more, of each
+  /// reflector.
   void update_below(render::Renderer& renderer, const scene::Scene& scene,
                     const std::vector<VisibleReflector>& reflectors) {
     if (!below_) return;

@@ -41,7 +41,7 @@ struct Method {
   bool needs_earlier_frames = false;
 };
 
-/// What scripts write to leave the choice of the method: the first that suits the scene, or the default.
+/// The word by which scripts leave the choice of the method: the first that suits the scene, or the default.
 inline constexpr const char* automatic = "automatic";
 
 /// All methods and overlays that rooms have added.
@@ -50,7 +50,7 @@ class Registry {
   /// Names are added once. Overlays lie over one another in the order in which they are added.
   void add(Method method);
 
-  /// Of the methods, in the order in which they were added; overlays have none that scripts write.
+  /// Names of the methods in the order in which they were added; overlays have none that scripts write.
   std::vector<std::string> names() const;
   /// Methods and overlays, in the order in which they were added.
   const std::vector<Method>& all() const { return methods_; }

@@ -17,7 +17,7 @@ namespace {
 
 using namespace scene::attribute;
 
-/// What the room keeps in a scene.
+/// The room's data in a scene.
 struct Paint {
   static constexpr std::string_view name = "test.paint";
   static constexpr scene::DataRole role = scene::DataRole::settings;

@@ -7,7 +7,7 @@
 
 namespace parvis::methods {
 
-/// What all methods have in common, and what each room's methods keep beside it.
+/// Settings of all methods, and of each room's methods beside them.
 struct Settings {
   static constexpr std::string_view name = "methods.settings";
   static constexpr scene::DataRole role = scene::DataRole::settings;
@@ -23,7 +23,7 @@ struct Settings {
   void hash(ContentHash& hash) const;
 };
 
-/// What a window wants, which no script says. Pictures and films have the default, so that they can be
+/// Settings of a window, which no script gives. Pictures and films have the default, so that they can be
 /// repeated.
 struct Pace {
   static constexpr std::string_view name = "methods.pace";
@@ -35,15 +35,15 @@ struct Pace {
   void hash(ContentHash& hash) const { hash.add(int(begins_at_once)); }
 };
 
-/// By content.
+/// Compares by content.
 bool operator==(const Settings& a, const Settings& b);
 
-/// What the scene says, to be changed.
+/// The scene's settings, to be changed.
 inline Settings& settings(scene::Scene& scene) { return scene.data<Settings>(); }
-/// What the scene says.
+/// The scene's settings.
 inline const Settings& settings(const scene::Scene& scene) { return scene.data<Settings>(); }
 
-/// What a room's methods keep: a struct that scene::SceneData describes, of role `settings`.
+/// The settings of a room's methods: a struct that scene::SceneData describes, of role `settings`.
 template <scene::SceneData T>
 T& own_settings(scene::Scene& scene) {
   return settings(scene).own.get<T>();

@@ -246,7 +246,7 @@ TEST_F(ReflectionsTest, MidwayBetweenTwoProbesBothAreShownByHalf) {
   EXPECT_LT(pixels_apart(both.radiance(), half, 0.1f), between_probes / 4) << "outlines alone differ";
 }
 
-/// What a rough mirror shows is as wide as its lobe, not as a texel.
+/// The reflection in a rough mirror is as wide as its lobe, not as a texel.
 TEST_F(ReflectionsTest, RoughMirrorsShowTheMeanOverTheirLobe) {
   constexpr float roughness = 0.5f;
   scene::Scene scene = room_with_mirror("rerendered_cube_map");

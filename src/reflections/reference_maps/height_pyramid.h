@@ -8,7 +8,7 @@
 
 namespace parvis::reference_maps {
 
-/// What a ray hits: nothing, the vertical side of a cell, or its top; see heightfield_walk.glsl.
+/// The thing that a ray hits: nothing, the vertical side of a cell, or its top; see heightfield_walk.glsl.
 enum class HitKind { nothing, side, top };
 /// Result of casting a ray.
 struct HeightHit {

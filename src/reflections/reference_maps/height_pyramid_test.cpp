@@ -38,7 +38,7 @@ struct TestRay {
   glm::vec3 origin, direction;
 };
 
-/// From above the ground, as bodywork casts them: most of them flat.
+/// A ray from above the ground as bodywork casts them: most of them flat.
 TestRay chance_ray(Random& random, float size_m) {
   const float turn = random.uniform(0.0f, 6.2831853f), rise = random.uniform(-0.6f, 0.6f);
   return {{random.uniform(-5.0f, size_m + 5.0f), random.uniform(-5.0f, size_m + 5.0f),

@@ -14,10 +14,10 @@ namespace parvis::reference_maps {
 
 class MapCache {
  public:
-  /// Of the scene as it is now; of a scene that was made in memory there is none.
+  /// The cache of the scene as it is now; a scene that was made in memory has none.
   explicit MapCache(const scene::Scene& scene);
 
-  /// Of this state of the scene; empty for a scene that was made in memory.
+  /// The folder of this state of the scene; empty for a scene that was made in memory.
   const std::filesystem::path& folder() const { return parts_.folder(); }
   std::filesystem::path file(std::size_t number) const;
 

@@ -19,7 +19,7 @@ class MapKeeperTest : public ::testing::Test {
   MapFile map(std::uint32_t number) const {
     return {map_plan(scene_).places, number, 2, {{1, 2, 3, std::uint8_t(number)}, {9, 8}}};
   }
-  /// What is reported while two maps are kept.
+  /// The report while two maps are kept.
   std::string keep_two() {
     testing::internal::CaptureStderr();
     {

@@ -9,7 +9,8 @@ namespace parvis::reference_maps {
 
 class MapPainter {
  public:
-  /// For maps that are as sharp as cube maps with faces of `face_resolution`. Fails only if a shader does.
+  /// Creates a painter of maps that are as sharp as cube maps with faces of `face_resolution`. Fails only if
+  /// a shader does.
   static Result<MapPainter> create(int face_resolution);
 
   /// Draws one of `maps`, without its coarser levels; takes some tenths of a second in a city. The light is

@@ -12,12 +12,13 @@ namespace parvis::reference_maps {
 
 class MapRenewal {
  public:
-  /// For maps as `bake_maps` makes them. Errors: a shader; the driver has no memory for a map.
+  /// Creates the renewal of maps as `bake_maps` makes them. Errors: a shader; the driver has no memory for a
+  /// map.
   static Result<MapRenewal> create(int face_resolution);
 
-  /// All of so many maps are out of date.
+  /// Marks all of so many maps as out of date.
   void ask(std::size_t map_count) { is_old_.assign(map_count, true); }
-  /// Of so many maps, those of these numbers are out of date.
+  /// Marks, of so many maps, those of these numbers as out of date.
   void ask(std::size_t map_count, std::span<const std::size_t> maps);
   bool is_done() const;
   /// Draws a map that is out of date, the one nearest to `looked_from`, in the light of the renderer's frame.

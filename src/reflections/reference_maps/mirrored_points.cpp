@@ -20,7 +20,7 @@ constexpr float grazing_cosine = 0.05f;     // flatter surfaces are not measured
 constexpr float valid = 0.5f;               // from here on a map keeps most of its weight
 constexpr std::size_t tries_per_point = 8;  // a place that is mostly sky gives fewer points
 
-/// Of the cell's side or top that a ray has met.
+/// Normal of the cell's side or top that a ray has hit.
 glm::vec3 normal_of_hit(const HeightPyramid& heights, const HeightHit& hit, glm::vec3 at,
                         glm::vec3 direction) {
   if (hit.kind == HitKind::top) return {0, 0, 1};

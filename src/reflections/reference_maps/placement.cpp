@@ -48,7 +48,7 @@ std::vector<glm::vec3> candidate_places(const scene::Scene& scene, const HeightP
   return candidates;
 }
 
-/// What each place shows of the points: a point counts once for each sharpness.
+/// The points that each place shows; a point counts once for each sharpness.
 std::vector<SetCover::Elements> shown_from(const std::vector<glm::vec3>& places, const HeightPyramid& heights,
                                            const std::vector<MirroredPoint>& points,
                                            const std::vector<float>& sharpness) {

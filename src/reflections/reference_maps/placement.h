@@ -31,13 +31,13 @@ struct Placement {
 Placement place_by_coverage(const scene::Scene& scene, const HeightPyramid& heights,
                             const PlacementGoal& goal);
 
-/// Up to `maximum` places, chosen by how sharply they show it: the default.
+/// A number of places, `maximum` or fewer, chosen by how sharply they show the scene: the default.
 Placement place_for_pictures(const scene::Scene& scene, const HeightPyramid& heights, int maximum);
 
 /// Minimum distance between maps, metres: closer, a second map adds nothing.
 inline constexpr float min_apart_m = 8.0f;
 
-/// At most `maximum` places spread evenly over the streets that the scene's traffic uses (farthest point
+/// Places, `maximum` or fewer, spread evenly over the streets that the scene's traffic uses (farthest point
 /// sampling), at least `min_apart_m` apart; where there are no streets, over the open ground. Metres, in the
 /// world. The baseline for placement by coverage.
 std::vector<glm::vec3> spread_places(const scene::Scene& scene, const HeightPyramid& heights, int maximum);

@@ -45,7 +45,7 @@ class ReferenceMaps {
   std::size_t colour_bytes() const;                               ///< of graphics memory, with mipmaps
   std::size_t bytes() const;                                      ///< of graphics memory, all in all
 
-  /// To be called when colours were drawn or written: makes their coarser levels.
+  /// Makes the coarser levels of colours that were drawn or written.
   void update_levels();
   /// The finest levels of a map as bytes, for files; not of compressed maps.
   std::vector<std::vector<std::uint8_t>> read(std::size_t map) const;

@@ -16,7 +16,7 @@ namespace {
 constexpr double max_heights = double(1 << 26);  // cells: 256 MB, and a third more for the levels above
 constexpr double max_heights_per_side = 16384;   // what OpenGL 4.5 promises of textures
 
-/// Of the finest level, whose sides are powers of two.
+/// Cells per side of the finest level, whose sides are powers of two.
 glm::dvec2 cells_per_side(glm::vec2 size_m, float cell_m) {
   const glm::dvec2 cells = glm::floor(glm::dvec2(size_m) / double(cell_m)) + 1.0;
   return glm::exp2(glm::ceil(glm::log2(cells)));

@@ -19,7 +19,7 @@ shading::Heightfield heights_of(const scene::Scene& scene);
 /// Width of the cells that a place of so many metres gets where `wanted_m` are wanted.
 float fitting_cell_m(glm::vec2 size_m, float wanted_m);
 
-/// Of the only map of a scene in which no place offers itself.
+/// Place of the only map of a scene in which no place offers itself.
 inline constexpr glm::vec3 place_without_ground{0.0f, 0.0f, 1.5f};
 
 /// Where the scene's reference maps are taken: where the script says, else where they show most; one place at
@@ -43,8 +43,8 @@ Result<ReferenceMaps> drawn_map(const scene::Scene& scene, render::Renderer& ren
 bool copy_baked(const MapCache& cache, std::size_t number, std::span<const glm::vec3> places,
                 ReferenceMaps& maps, std::size_t layer);
 
-/// All of the scene's reference maps: those that are baked are read, the others drawn. Unfit baked ones are
-/// reported on standard error. Errors: a shader; more maps than ReferenceMaps holds.
+/// The scene's reference maps: those that are baked are read, the others drawn. Unfit baked ones are reported
+/// on standard error. Errors: a shader; more maps than ReferenceMaps holds.
 Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& heights,
                                 render::Renderer& renderer);
 

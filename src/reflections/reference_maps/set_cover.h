@@ -20,8 +20,8 @@ class SetCover {
   /// Each next set adds the most elements; up to `maximum` of them, until `enough` elements are covered or
   /// none adds any.
   Chosen greedy(std::size_t maximum, std::size_t enough) const;
-  /// From `start`, whose sets go together: puts other sets in place of single ones while that covers more,
-  /// and leaves sets out while `enough` elements remain covered.
+  /// Improves `start`, whose sets go together: puts other sets in place of single ones while that covers
+  /// more, and leaves sets out while `enough` elements remain covered.
   Chosen improved(const Chosen& start, std::size_t enough) const;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace parvis::reference_maps {
 
-/// Of the methods that look reference maps up, by the node `reflection`.
+/// Settings, by the node `reflection`, of the methods that look reference maps up.
 struct MapSettings {
   static constexpr std::string_view name = "reference_maps.settings";
   static constexpr scene::DataRole role = scene::DataRole::settings;
@@ -38,9 +38,9 @@ struct ReferenceMapPlan {
   }
 };
 
-/// What the node says, to be changed.
+/// The node's plan, to be changed.
 inline ReferenceMapPlan& map_plan(scene::Scene& scene) { return scene.data<ReferenceMapPlan>(); }
-/// What the node says.
+/// The node's plan.
 inline const ReferenceMapPlan& map_plan(const scene::Scene& scene) { return scene.data<ReferenceMapPlan>(); }
 
 /// How many maps place themselves, at most.

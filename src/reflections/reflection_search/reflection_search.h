@@ -44,7 +44,7 @@ struct ReflectionSearch {
     return {{{position, normal, kind_surface}, u, cross(normal, u)}, curvature};
   }
   SearchStart further_start(int i) { return search_start(i); }
-  /// Of a ReflectorMap.
+  /// The kind of patch of a ReflectorMap.
   PatchKind patch_kind() const { return {reflector.is_convex, reflector.is_whole_body()}; }
 };
 

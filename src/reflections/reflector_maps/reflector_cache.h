@@ -17,7 +17,7 @@ class ReflectorCache {
   /// Nothing is kept of a scene that was made in memory.
   explicit ReflectorCache(const scene::Scene& scene);
 
-  /// As it was kept, or made now. Reports on standard error what cannot be used of what was kept. Errors as
+  /// The kept reflector, or one made now. Reports on standard error a kept one that cannot be used. Errors as
   /// make_reflector's.
   Result<Reflector> reflector(const ReflectorSource& source) const;
   /// The stored reflector; none where it is absent, and, with a warning, where it is damaged.
@@ -34,7 +34,7 @@ class ReflectorCache {
   KeptParts parts_;
 };
 
-/// What is kept of a scene, or of several of its states.
+/// The kept reflectors of a scene, or of several of its states.
 struct BakedReflectors {
   KeptParts parts;
   std::set<std::filesystem::path> files;

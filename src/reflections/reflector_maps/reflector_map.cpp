@@ -51,7 +51,7 @@ void for_each_corner(const ReflectorMesh& mesh, const ReflectorPatch& patch, con
       visit(glm::transpose(axes) * glm::normalize(corner - patch.centre));
 }
 
-/// Of an octahedral layer about the third axis, what holds all corners of a patch.
+/// Extent of an octahedral layer about the third axis that holds all corners of a patch.
 float square_extent(const ReflectorMesh& mesh, const ReflectorPatch& patch, const glm::mat3& axes) {
   float reach = 0.0f;
   for_each_corner(mesh, patch, axes, [&](glm::vec3 direction) {
@@ -203,7 +203,7 @@ void close(ImageF& texels, const MapWindow& window, bool is_convex) {
   });
 }
 
-/// What the surface between four texels is: do they say it, in their middle and on both sides of it?
+/// The kind of surface between four texels: do they agree, in their middle and on both sides of it?
 float kind_between(const ReflectorMap& map, const PatchRays& rays, glm::vec2 first) {
   for (const glm::vec2 at : {glm::vec2(0.5f), glm::vec2(0.2f, 0.6f), glm::vec2(0.8f, 0.4f),
                              glm::vec2(0.4f, 0.1f), glm::vec2(0.6f, 0.9f)}) {
@@ -260,7 +260,7 @@ bool has_many_creases(const ReflectorMap& map) {
   return 4.0 * double(creases) > creased_share * double(map.texels.pixels.size());
 }
 
-/// Of a body in one piece, which most often is round: `side` texels wide if that will do.
+/// The map of a body in one piece, which most often is round: `side` texels wide if that suffices.
 ReflectorMap map_of_body(const ReflectorMesh& mesh, const ReflectorPatch& patch, int side) {
   ReflectorMap map = reflector_map(mesh, patch, side);
   return has_many_creases(map) ? reflector_map(mesh, patch, int(max_sides * side)) : map;

@@ -319,8 +319,8 @@ TEST(ReflectorMap, AThinRimIsABandOfDirectionsAndShowsWhatItMirrors) {
   EXPECT_GT(found, 280);
 }
 
-/// What a map does not hold is looked up where its window ends. The surface there goes on over neighbouring
-/// patches, yet is not what lies beyond.
+/// A direction that a map does not hold is looked up where its window ends. The surface there goes on over
+/// neighbouring patches, yet is not what lies beyond.
 TEST(ReflectorMap, BeyondAWindowIsNoSurface) {
   Random random(6);
   int windows = 0, bands = 0;

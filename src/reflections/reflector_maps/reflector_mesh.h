@@ -14,8 +14,8 @@ namespace parvis::reflector_maps {
 /// No triangle without area; normals of unit length on the side of their triangles.
 struct ReflectorMesh {
   Mesh mesh;
-  /// Across each triangle's three edges: the other triangle, or `no_triangle` at a rim and where more than
-  /// two meet.
+  /// Neighbours across each triangle's three edges: the other triangle, or `no_triangle` at a rim and where
+  /// more than two meet.
   std::vector<std::array<std::uint32_t, 3>> neighbours;
 
   std::size_t dropped_triangles = 0;  ///< without area

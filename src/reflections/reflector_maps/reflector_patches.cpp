@@ -20,7 +20,7 @@ constexpr int centre_rounds = 200;
 constexpr float same_layer = 1e-3f;  // of the distance: what lies before that much hides what is behind
 constexpr double overlap = 0.3;      // of a patch's area: how far its map goes on over its neighbours
 
-/// What every step needs of each triangle.
+/// Data of each triangle that every step needs.
 struct Facets {
   std::vector<glm::vec3> middle, normal;
   std::vector<float> area;
@@ -203,7 +203,7 @@ std::vector<std::uint8_t> halves(const Facets& facets, const std::vector<std::ui
   return half;
 }
 
-/// Of a patch's triangles, those that others of it hide from its centre.
+/// A patch's triangles that others of it hide from its centre.
 std::vector<std::uint32_t> hidden_triangles(const ReflectorMesh& mesh, const Facets& facets,
                                             const std::vector<std::uint32_t>& triangles, glm::vec3 centre) {
   const SurfaceRays rays(mesh, triangles);

@@ -21,7 +21,7 @@ std::string name_of(const scene::Object& object) {
 
 bool is_glass(const scene::Material& material) { return material.refracts() && material.is_mirror_like; }
 
-/// Of a sheet with as much glass as the body, as large as half its surface: the wall of a shell.
+/// Thickness of a sheet with as much glass as the body, as large as half its surface: the wall of a shell.
 float thickness_of(const scene::GlassPiece& body) {
   double area = 0.0;
   for (std::size_t i = 0; i < body.mesh.indices.size(); i += 3) {
@@ -33,7 +33,7 @@ float thickness_of(const scene::GlassPiece& body) {
   return float(2.0 * body.volume / area);
 }
 
-/// As many texels in all as one body would have, and the least for each.
+/// Side of a piece's map: all pieces have as many texels as one body would, and each has the least.
 int side_of(float size, float all_sizes) {
   return std::max(min_glass_side, int(std::lround(float(glass_side) * size / all_sizes)));
 }

@@ -20,11 +20,11 @@ struct NearObjectSettings {
   void hash(ContentHash& hash) const { hash.add(within_m); }
 };
 
-/// What the scene says, to be changed.
+/// The scene's settings, to be changed.
 inline NearObjectSettings& near_object_settings(scene::Scene& scene) {
   return methods::own_settings<NearObjectSettings>(scene);
 }
-/// What the scene says.
+/// The scene's settings.
 inline const NearObjectSettings& near_object_settings(const scene::Scene& scene) {
   return methods::own_settings<NearObjectSettings>(scene);
 }

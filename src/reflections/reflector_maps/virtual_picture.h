@@ -15,7 +15,7 @@ class VirtualPicture {
   /// Clears the picture, made as large as the main view, and gives the mirrored view to draw into it with,
   /// all that `vertices` show: RGBA16F, depth and stencil, multisampled.
   render::View begin(const render::Renderer& renderer, render::VirtualVertices& vertices);
-  /// As if no patch were marked.
+  /// Clears the colour as if no patch were marked.
   void clear_colour() const;
   void clear_depth() const;
   /// Brings the samples together in `texture`, weighed for the renderer's exposure.

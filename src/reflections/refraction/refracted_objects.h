@@ -47,7 +47,7 @@ class RefractedObjects final : public methods::Overlay, public render::VirtualVe
     std::vector<std::size_t> parts;  ///< of its model
     float thickness = 0.0f;          ///< in its model's unit, as a pane
   };
-  /// Per-frame state of a body of glass, beside its patch.
+  /// State per frame of a body of glass, beside its patch.
   struct ViewThrough {
     const Glass* glass = nullptr;
     bool shows_objects = false;                        ///< before the light of its surroundings

@@ -113,8 +113,8 @@ TEST_F(RefractedObjectsTest, BodiesOfOneModelEachShowTheirOwn) {
   EXPECT_GT(draw(scene, eye, target, Shown::sky).flip(), 2.0 * flip);
 }
 
-/// What light is not followed through is a pane: what stands behind it is seen as if there were no glass. (Of
-/// an index by which little is mirrored, but at rims: there FLIP is not 0.)
+/// A body that light is not followed through is a pane: things behind it are seen as if there were no glass.
+/// (The index is one by which little is mirrored, but at rims: there FLIP is not 0.)
 TEST_F(RefractedObjectsTest, OpenConcaveAndSqueezedBodiesArePanes) {
   const glm::mat4 above = placed({0, 0, 1.1f});
   const auto expect_pane = [&](const Mesh& body, const glm::mat4& world_from_body) {
@@ -150,7 +150,7 @@ TEST_F(RefractedObjectsTest, PanesAbsorb) {
   EXPECT_LT(2.0 * tinted.flip(), reference::compare(clear.ours, tinted.traced, tinted.mirrors)->flip);
 }
 
-/// On its way through a shell light passes two walls, hence as much is left as of two panes.
+/// Light passes two walls on its way through a shell, hence as much is left as of two panes.
 TEST_F(RefractedObjectsTest, ShellsAbsorbAsTheirWallsDo) {
   Mesh shell = scene::sphere(glm::vec3(0.0f), 0.9f, 32);
   append(shell, scene::sphere(glm::vec3(0.0f), 0.88f, 32));

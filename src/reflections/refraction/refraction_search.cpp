@@ -54,7 +54,8 @@ class ViewThrough {
     v_ = glm::cross(axis_, u_);
   }
 
-  /// Toward a point beside the centre; nothing where the ray passes by, or all light is reflected inside.
+  /// Traces a ray toward a point beside the centre; nothing where the ray passes by, or all light is
+  /// reflected inside.
   std::optional<TracedRay> trace(glm::vec2 beside) const {
     const glm::vec3 direction = glm::normalize(body_.centre + beside.x * u_ + beside.y * v_ - viewer_);
     const auto entry = near_side(direction);

@@ -82,7 +82,7 @@ GlassBody analytic(const Ellipsoid& ellipsoid, float ior) {
           std::max({ellipsoid.radii.x, ellipsoid.radii.y, ellipsoid.radii.z}), ior};
 }
 
-/// What became of the search for vertices that a random ray hits.
+/// Results of the search for vertices that a random ray hits.
 struct Findings {
   int tasks = 0, lost = 0, elsewhere = 0;
   double farthest = 0.0;  ///< entry from the truth, where it is that of the ray

@@ -28,11 +28,11 @@ struct SearchSettings {
   }
 };
 
-/// What the scene says, to be changed.
+/// The scene's settings, to be changed.
 inline SearchSettings& search_settings(scene::Scene& scene) {
   return methods::own_settings<SearchSettings>(scene);
 }
-/// What the scene says.
+/// The scene's settings.
 inline const SearchSettings& search_settings(const scene::Scene& scene) {
   return methods::own_settings<SearchSettings>(scene);
 }

@@ -28,7 +28,7 @@ std::vector<float> shares_up_to(float maximum, bool follows_area) {
   return shares;
 }
 
-/// At most, in the table.
+/// The largest number of texels in the table.
 std::size_t texels_of(std::span<const VirtualGrid> grids) {
   std::size_t texels = 0;
   for (const VirtualGrid& grid : grids)
@@ -37,7 +37,7 @@ std::size_t texels_of(std::span<const VirtualGrid> grids) {
   return texels;
 }
 
-/// As grid_table.glsl has it; returns where the grid begins.
+/// Appends a grid as grid_table.glsl has it; returns where the grid begins.
 int append(const VirtualGrid& grid, std::vector<glm::vec4>& table) {
   const int first = int(table.size());
   const GridLayout& layout = grid.layout();

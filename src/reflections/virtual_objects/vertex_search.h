@@ -36,7 +36,7 @@ class VertexSearch {
   void bind(const gl::Program& program) const;
 
  private:
-  /// From fine to coarse.
+  /// Grids of a mesh from fine to coarse.
   struct MeshGrids {
     std::size_t vertex_count = 0;
     int first_vertex = 0;       ///< of all on the GPU

@@ -49,7 +49,7 @@ class VirtualGrid {
   /// Corners for which reflection points are searched, in the vertices' frame.
   const std::vector<glm::vec3>& corners() const { return corners_; }
   const GridLayout& layout() const { return layout_; }  ///< of the whole box
-  /// For each corner of the layout's box its index in `corners()`, or `no_corner`.
+  /// Index in `corners()` of each corner of the layout's box, or `no_corner`.
   const std::vector<std::uint32_t>& numbers_in_box() const { return numbers_; }
 
   /// Trilinear interpolation from virtual corners to the vertices for which the grid was made. A vertex is

@@ -44,12 +44,12 @@ bool are_plain(const ReflectorsByModel& reflectors) {
   });
 }
 
-/// For shaders with map_window.glsl.
+/// Defines of shaders with map_window.glsl.
 gl::Defines map_defines(const ReflectorsByModel& reflectors) {
   return are_plain(reflectors) ? gl::Defines{{"ALL_PLAIN", ""}} : gl::Defines{};
 }
 
-/// For shaders with virtual_point.glsl.
+/// Defines of shaders with virtual_point.glsl.
 gl::Defines search_defines(const ReflectorsByModel& reflectors, const SearchSettings& settings) {
   gl::Defines defines = map_defines(reflectors);
   if (settings.search == SearchMethod::midpoint)
@@ -69,7 +69,7 @@ void bind_near_picture(const gl::Program& program, GLuint texture, float share) 
   program.set("near_share", share);
 }
 
-/// What the first mirror-like material gives back, seen from before it.
+/// Reflectance of the first mirror-like material, seen from before it.
 glm::vec3 mirror_colour(const std::vector<scene::Material>& materials) {
   constexpr float coat = 0.04f;
   for (const scene::Material& material : materials)

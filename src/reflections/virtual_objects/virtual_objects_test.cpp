@@ -120,7 +120,8 @@ TEST_F(VirtualObjectsTest, ABowlThatIsPaintedShowsItselfInItsPaint) {
   EXPECT_EQ(draw(painted, eye, target).ours.pixels, draw(of_copper, eye, target).ours.pixels);
 }
 
-/// In a dark room under a bright sky: what covers a part of a pixel shows nothing of the sky in the others.
+/// A surface that covers a part of a pixel, in a dark room under a bright sky, shows nothing of the sky in
+/// others.
 TEST_F(VirtualObjectsTest, OutlinesShowNoSurroundingsThroughWhatCoversThem) {
   scene::Scene scene = among_boxes(scene::sphere(glm::vec3(0.0f), 1.0f, 64), placed({0, 0, 1.1f}));
   Mesh room = divided(scene::box(glm::vec3(-7.0f, -7.0f, -0.1f), glm::vec3(7.0f, 7.0f, 6.0f)), 24);
