@@ -37,7 +37,7 @@ inline void must(const Status& status) {
   if (!status) throw Failed{status.errors()};
 }
 
-/// What the parts of a bench share while they run.
+/// Data shared by the parts of a bench while they run.
 struct BenchSetup {
   bool is_quick = false;         ///< fewer repetitions and views, every key all the same
   std::filesystem::path folder;  ///< for files; the program removes it unless `--keep` names it

@@ -8,7 +8,7 @@
 
 namespace parvis::bench {
 
-/// What a figure is to reach.
+/// The value that a figure is to reach.
 struct Target {
   enum class Kind : unsigned char { none, maximum, minimum };
   double limit = 0.0;

@@ -9,7 +9,7 @@ namespace parvis::bench {
 /// Is there a program of this name?
 bool has_program(const std::string& name);
 
-/// What the program prints, and how long it ran.
+/// Output of the program, and how long it ran.
 struct OwnRun {
   std::string output;    ///< standard output
   double seconds = 0.0;  ///< by the clock, all of it

@@ -25,7 +25,7 @@ Measured measure_vegetation;                                                    
 Measured measure_sceaux, measure_courtyard, measure_filling, measure_drawings;          // facades/
 Measured measure_reconstruction, measure_display, measure_maize, measure_distribution;  // trees/
 
-/// Of a stage of the paper's city, or of its scene: what some parts of reflections/maps.cpp consist of.
+/// Parts of reflections/maps.cpp, on a stage of the paper's city or on its scene.
 void measure_motion(house::Stage& stage, const BenchSetup& setup, Report& report);
 void measure_budget(house::Stage& stage, const BenchSetup& setup, Report& report);
 void measure_body_count(const scene::Scene& city, const BenchSetup& setup, Report& report);

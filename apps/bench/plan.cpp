@@ -34,7 +34,7 @@ Camera eye_at(glm::dvec3 place) {
   return camera;
 }
 
-/// Over the pixels in which the picks of an object alone differ from the rest.
+/// A mask of the pixels in which the picks of an object alone differ from the rest.
 Image8 mask_of(house::Stage& stage, const Camera& camera, int object) {
   const render::ObjectPicture picked = stage.renderer().pick(camera, width, height, false);
   Image8 mask(width, height, 1);

@@ -31,7 +31,7 @@ namespace {
 /// shadow maps.
 class CountedPlants final : public render::Drawable {
  public:
-  /// Of one view.
+  /// Counts of one view.
   struct View {
     render::ViewKind kind;
     vegetation::PlantStatistics chosen;  ///< what the view is to draw
@@ -64,7 +64,7 @@ class CountedPlants final : public render::Drawable {
   std::vector<View> views_;
 };
 
-/// By which the sun turns in a minute.
+/// Angle by which the sun turns in a minute.
 inline constexpr float minute_of_sun_deg = 0.25f;
 
 /// 200 oaks of a million triangles each, of four shapes, in ten rows.
@@ -83,7 +83,7 @@ class Grove {
   glm::vec3 show_one();
   /// Whether trees cast shadows, as they do at first.
   void let_cast(bool cast);
-  /// About the vertical, so that the next frame draws its shadow maps again.
+  /// Turns the sun about the vertical, so that the next frame draws its shadow maps again.
   void turn_sun(float degrees);
 
   /// A frame as it ships, or in some detail with `scale` times the pixels of a picture, across and down.
@@ -96,13 +96,13 @@ class Grove {
   /// Samples of a true picture over those of a picture, across and down.
   static constexpr int supersample = 4;
 
-  /// What the main view of a camera would draw in some detail; nothing is drawn.
+  /// Primitives that the main view of a camera would draw in some detail; nothing is drawn.
   CountedPlants::View chosen(const Camera& camera, const vegetation::PlantDetail& detail) const;
   /// The detail by which a picture of `camera` shows plants as if its resolution were smaller by `scale`, at
   /// most 1: the largest budget that is kept by no larger a factor.
   vegetation::PlantDetail detail_at(const Camera& camera, float scale) const;
-  /// What all views of a frame draw whose shadow maps are drawn again, the sun having moved. Fails where one
-  /// of them draws other primitives than it has chosen.
+  /// Primitives of all views of a frame whose shadow maps are drawn again, the sun having moved. Fails where
+  /// one of them draws other primitives than it has chosen.
   std::vector<CountedPlants::View> counted(const Camera& camera);
 
  private:
@@ -369,7 +369,7 @@ void measure_approach(bool is_quick, Grove& grove, Report& report) {
   report.add("vegetation_pop_flip_without_blending", pops.at_once);
 }
 
-/// Under the first trees: the lawn lies on one side, the grove on the other.
+/// A camera under the first trees: the lawn lies on one side, the grove on the other.
 Camera looking_round(int step) {
   constexpr glm::vec3 eye{5.0f, 5.0f, 1.7f};
   const float heading = glm::radians(turn_deg * float(step));
@@ -411,7 +411,7 @@ constexpr float closer = 0.4f;  // of a view's angle
 /// More than there are: what a view would draw without a budget.
 constexpr int no_budget = 2'000'000'000;
 
-/// Under the first trees, from the lawn before all of them, and from above.
+/// Views under the first trees, from the lawn before all of them, and from above.
 std::vector<Camera> grove_views() {
   std::vector<Camera> cameras(3);
   cameras[0].world_from_camera = look_at({5.0f, 5.0f, 1.7f}, {0.0f, 60.0f, 4.0f});
@@ -427,8 +427,8 @@ struct FrameTimes {
   double cpu_ms = 0.0;     ///< of all cores, per frame
 };
 
-/// With `is_day_passing` the sun moves from frame to frame, and each draws its shadow maps again; else they
-/// are kept, but for what the viewer's way asks for.
+/// Times of frames. With `is_day_passing` the sun moves from frame to frame, and each draws its shadow maps
+/// again; else they are kept, but for what the viewer's way asks for.
 FrameTimes frame_times(Grove& grove, Camera camera, int frames, bool is_day_passing) {
   const int to_begin = is_day_passing ? 1 : 2;  // draw what is kept
   FrameTimes times;
@@ -448,7 +448,7 @@ FrameTimes frame_times(Grove& grove, Camera camera, int frames, bool is_day_pass
   return times;
 }
 
-/// What the views of the grove cost: the slowest frames, the largest counts.
+/// Costs of the views of the grove: the slowest frames, the largest counts.
 struct Cost {
   std::vector<double> slowest_ms, slowest_kept_ms;
   double in_view = 0.0;                                 ///< primitives
@@ -498,7 +498,7 @@ struct Quality {
   double flip_bare = 1e9;              ///< the smallest of a lawn without trees
   std::vector<double> full_ms;         ///< what the real geometry took
 
-  /// Of so many rows of trees, in the forms that the view has of all of them.
+  /// Adds the figures of so many rows of trees, in the forms that the view has of all of them.
   void add(Grove& grove, const Camera& camera, int rows, const std::string& name, Report& report) {
     const float scale_of_all = grove.chosen(camera, {}).scale;
     grove.show_rows(rows);

@@ -111,8 +111,8 @@ struct SearchedShare {
   std::vector<double> ms;  ///< of its passes with the balls, less those without
 };
 
-/// What grids save where all is done on the GPU: the corners' pass and the vertices' interpolation beside a
-/// search for each vertex.
+/// Measures the time that grids save where all is done on the GPU: the corners' pass and the vertices'
+/// interpolation beside a search for each vertex.
 void measure_grids_in_renderer(scene::Scene& scene, render::Renderer& renderer, const Camera& camera,
                                const BenchSetup& setup, Report& report) {
   std::vector<SearchedShare> shares;

@@ -143,7 +143,7 @@ void measure_explosion_maps(const BenchSetup& setup, Report& report) {
   for (std::size_t i = 0; i < (setup.is_quick ? quick_viewers : viewers); ++i) {
     const glm::vec3 viewer = random.uniform(2.0f, 6.0f) * random_direction(random);
     const std::vector<glm::vec3> shown = shown_vertices(viewer, random);
-    /// By a method that gives the direction of each vertex's reflection point from the middle; 0: none.
+    /// Judges a method that finds the direction of each vertex's reflection point from the middle; 0: none.
     const auto judge = [&](Figures& figures, const std::function<void(std::vector<glm::vec3>&)>& find) {
       std::vector<glm::vec3> found(shown.size());
       figures.ms += milliseconds([&] { find(found); });

@@ -86,7 +86,7 @@ std::vector<VirtualPoint> all_by(const Shows& shows, glm::vec3 viewer, std::span
   return points;
 }
 
-/// By a grid whose corners are searched for.
+/// Virtual points by a grid whose corners are searched for.
 std::vector<VirtualPoint> by_grid(const VirtualGrid& grid, const Shows& shows, glm::vec3 viewer,
                                   std::span<const glm::vec3> vertices) {
   const std::vector<VirtualPoint> corners = all_by(shows, viewer, grid.corners());

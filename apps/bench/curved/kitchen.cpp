@@ -76,8 +76,8 @@ class ReflectedPoints {
   /// Makes the maps of all mirrors of a scene, as the renderer does; `scene` stays where it is.
   static ReflectedPoints make(const scene::Scene& scene);
 
-  /// For `count` chance pixels that show mirrors which show the scene: pixels between where the fine mesh,
-  /// with interpolated normals, mirrors a point and where the search finds it mirrored.
+  /// Errors in `count` random pixels that show mirrors which show the scene: pixels between where the fine
+  /// mesh, with interpolated normals, mirrors a point and where the search finds it mirrored.
   ReflectedPointErrors errors(const Camera& camera, glm::ivec2 size, std::size_t count,
                               const PatchSearch& search) const;
 
@@ -251,7 +251,8 @@ void measure_view(house::Stage& stage, const std::vector<JudgedMethod>& methods,
                             methods[m].name, median(frame_s[m]).value, median(processor_s[m]).value));
 }
 
-/// What a frame of the kitchen takes with every vertex searched for, with its grids, and with cube maps.
+/// Notes the time of a frame of the kitchen with every vertex searched for, with its grids, and with cube
+/// maps.
 void note_frames(house::Stage& stage, Report& report) {
   const std::vector<JudgedMethod> methods = judged_methods(stage, ways_to_reflect(stage.scene()));
   for (const char* name : timed_cameras) measure_view(stage, methods, name, report);
@@ -273,7 +274,7 @@ MapSearch::PatchPoint by_paper_search(MapSearch& search, const MapSearch::Reflec
   return by_midpoint(search, task);
 }
 
-/// What all views reach but those that may miss it.
+/// The bound that all views reach but those that may miss it.
 double reached_px(std::vector<double> p99_of_views) {
   std::ranges::sort(p99_of_views);
   return p99_of_views[p99_of_views.size() - 1 - views_that_may_miss];

@@ -84,7 +84,7 @@ constexpr std::array places{Place{{-0.2f, -2.2f, 1.2f}, {-0.6f, 0.0f, 0.8f}},
                             Place{{1.8f, -3.2f, 2.0f}, {0.0f, 0.2f, 0.8f}},
                             Place{{-2.6f, 0.9f, 1.3f}, {0.3f, 0.4f, 0.8f}}};
 
-/// What the ray tracer makes of a view, with as many bounces.
+/// The ray tracer's picture of a view with as many bounces.
 reference::TracedPicture truth_of(house::Stage& stage, const Camera& camera, glm::ivec2 size, int bounces) {
   methods::settings(stage.play().scene).bounces = bounces;
   return stage.trace(camera, size.x, size.y, samples_per_pixel);

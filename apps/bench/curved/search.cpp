@@ -34,9 +34,10 @@ struct KnownReflection {
   float reach;  ///< of the vertex, in radii of the body
 };
 
-/// What one search made of all of a body's reflections.
+/// Results of one search for all of a body's reflections.
 struct SearchFigures {
-  /// Between bisector and normal, on the fine mesh; none: there is no surface where the search has ended.
+  /// Angles between bisector and normal, on the fine mesh; none: there is no surface where the search has
+  /// ended.
   std::vector<std::optional<double>> angles_deg;
   std::vector<bool> is_told;  ///< the search says that it has not found it
   double microseconds = 0.0;  ///< for each
@@ -50,7 +51,7 @@ class JudgedBody {
   /// `count` reflections that nothing of the body hides, their vertices at 1.1, 1.5, 2.5 and 4 radii.
   static JudgedBody make(std::string name, const Mesh& mesh, std::size_t count);
 
-  /// As the report calls it.
+  /// The name in the report.
   const std::string& name() const { return name_; }
   /// All known reflections.
   const std::vector<KnownReflection>& reflections() const { return reflections_; }
@@ -63,7 +64,7 @@ class JudgedBody {
   std::string name_;
   std::size_t triangles_ = 0, patches_ = 0;
   std::vector<reflector_maps::ReflectorMap> maps_;
-  /// Of the fine mesh: each map's own part, and beside it that of its neighbours.
+  /// Rays to the fine mesh: each map's own part, and beside it that of its neighbours.
   std::vector<std::unique_ptr<reflector_maps::SurfaceRays>> own_rays_, rays_around_;
   std::vector<KnownReflection> reflections_;
 };
@@ -203,7 +204,7 @@ struct Share {
   double percent() const { return all ? 100.0 * counted / all : 0.0; }
 };
 
-/// What searches make of the same reflections. All are accepted by one rule, whatever they report of
+/// Results of searches for the same reflections. All are accepted by one rule, whatever they report of
 /// themselves: a search that ends where the fine mesh has no surface has no angle there. It counts in that
 /// search's share of points not found, and in no percentile.
 struct ComparedSearches {
@@ -397,8 +398,8 @@ void measure_maps(const Bodies& all, const BenchSetup& setup, Report& report) {
   report.add("flagged_percent_of_midpoint9", flagged_by_midpoint.percent());
 }
 
-/// Without maps: vertices anywhere about ellipsoids, hidden ones too, at 1.1 to 4 times the surface's
-/// distance.
+/// Measures searches without maps: vertices anywhere about ellipsoids, hidden ones too, at 1.1 to 4 times the
+/// surface's distance.
 void measure_analytic(const BenchSetup& setup, Report& report) {
   using Search = ReflectionSearch<Ellipsoid>;
   std::vector<double> newton_angles, midpoint_angles;

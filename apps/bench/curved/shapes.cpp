@@ -242,7 +242,7 @@ class Edges {
       lengths_.push_back((lengths_.empty() ? 0.0 : lengths_.back()) + double(glm::distance(a, b)));
     }
   }
-  /// By length.
+  /// Draws an edge with a probability proportional to its length.
   std::pair<glm::vec3, glm::vec3> draw(Random& random) const {
     const auto at =
         std::upper_bound(lengths_.begin(), lengths_.end(), double(random.uniform()) * lengths_.back());

@@ -174,7 +174,7 @@ class TimedScene {
     const double choice_ms = finished_ms([&] { renderer_->prepare_main_view(camera, width, height); });
     return {finished_ms([&] { renderer_->draw_main_view(); }), choice_ms};
   }
-  /// Of what was drawn last.
+  /// The last picture drawn.
   ImageF picture() { return renderer_->read_radiance(); }
 
  private:

@@ -70,7 +70,7 @@ facades::NamedMesh board_before(const StreetFront& front) {
                    board_width_m * front.frame.along, {0, 0, board_height_m});
 }
 
-/// Of a plain colour; it casts no shadow, so that the truth is what it hides.
+/// A board of a plain colour; it casts no shadow, so that the truth is the picture without it.
 scene::Object board_object(const facades::NamedMesh& board) {
   auto model = std::make_shared<scene::Model>();
   scene::Material material;

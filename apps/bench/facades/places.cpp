@@ -152,7 +152,7 @@ void report_place(const facades::PlaceFigures& figures, const std::string& place
   report.add(filled + "_by_layers", figures.filled.layered_percent);
 }
 
-/// Of the place with photographs of 1416 x 1064.
+/// Reports costs of the place with photographs of 1416 x 1064.
 void report_costs(const facades::PlaceFigures& figures, Report& report) {
   for (const auto& [key, value] :
        {std::pair<const char*, double>{"layers_s_per_photo", figures.layers_s_per_photo},

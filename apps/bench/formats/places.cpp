@@ -173,7 +173,7 @@ scene::Scene without_plane(scene::Scene scene) {
   return scene;
 }
 
-/// What a place's triangles are.
+/// Counts of a place's triangles by their kind.
 struct TriangleCount {
   double buildings = 0.0;  ///< dressed walls and roofs
   double own = 0.0;        ///< the map, its paving and the terrain around it

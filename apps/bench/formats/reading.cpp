@@ -49,7 +49,7 @@ scenario(name="tramway") {
 }
 )";
 
-/// What reading a file in a child takes beyond reading it here.
+/// Time and memory of reading a file in a child beyond those of reading it here.
 struct Overhead {
   Median ms;
   double min_ms = 0.0;  ///< between the shortest readings, in a child and here

@@ -57,8 +57,8 @@ class DoubleTracer {
   std::vector<Box> boxes_;
 };
 
-/// Of a picture of `width` x `height` pixels those that are judged: the first of each square of `step` x
-/// `step`, top row first.
+/// The judged pixels of a picture of `width` x `height`: the first of each square of `step` x `step`, top row
+/// first.
 struct JudgedPixels {
   int width = 0, height = 0, step = 1;
 
@@ -67,8 +67,8 @@ struct JudgedPixels {
   std::size_t count() const { return std::size_t(columns()) * std::size_t(rows()); }
 };
 
-/// What the middle of each judged pixel sees of the sun: -1 nothing that faces it, or nothing that is known;
-/// 0 shadow, 1 light.
+/// The sun in the middle of each judged pixel: -1 nothing faces it, or nothing is known; 0 shadow, 1
+/// light.
 using SunPicture = std::vector<signed char>;
 
 /// A middle is in shadow if the line from the very point that it shows to the middle of the sun crosses a
@@ -91,7 +91,7 @@ SunShares judged_shares(const JudgedPixels& pixels, const ShareAt& share_at) {
   return shares;
 }
 
-/// From this share on a pixel counts as lit.
+/// The fraction from which on a pixel counts as lit.
 inline constexpr float half_lit = 0.5f;
 
 /// Wrong pixels among those of which a truth is known.

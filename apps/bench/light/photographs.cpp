@@ -133,8 +133,8 @@ shading::BouncedLight fresh_light(const scene::Scene& scene) {
   return *made->bounced();
 }
 
-/// What a frame waits for when the hour, and with it sun and sky, has changed: the light of all places and
-/// its way to the GPU. Sun and sky by themselves take their time without bounced light, too.
+/// Measures the time that a frame waits for when the hour, and with it sun and sky, has changed: the light of
+/// all places and its way to the GPU. Sun and sky by themselves take their time without bounced light, too.
 void measure_bounced_update(const scene::Scene& city, Report& report) {
   SunAhead* ahead = nullptr;
   const render::MakeLight below = [&](const scene::Scene& scene,
@@ -266,7 +266,7 @@ class HourOfCity {
     return flips;
   }
 
-  /// Between two photographs by other seeds: noise that no picture can match.
+  /// FLIP between two photographs by other seeds: noise that no picture can match.
   double flip_of_noise(const Camera& camera) {
     const ImageF one = photograph_by(1, camera), other = photograph_by(2, camera);
     return flip_to(shading::tone_mapped_picture(other, with_.exposure), one, with_.exposure);

@@ -56,7 +56,8 @@ class CrownCity {
   /// Fails where anything else stands among the leaves, or where more than a few of them lie in the shade of
   /// other things: inside a street tree rays would end within a metre.
   void stands_free_in_sun(glm::vec3 to_sun) const;
-  /// What casts light and shade on the crown: all that stands still, with the crown itself or without it.
+  /// The geometry that casts light and shade on the crown: all that stands still, with the crown itself or
+  /// without it.
   scene::Scene casters(bool with_crown) const;
 
  private:
@@ -279,7 +280,7 @@ class Relit {
     light_.restart();
     return milliseconds([&] { light_.refine(rays_, sky_, count, blocked); });
   }
-  /// What was traced last.
+  /// The light that was traced last.
   std::vector<glm::vec3> light() const { return light_.irradiance(); }
 
  private:
@@ -374,7 +375,7 @@ Course course_of(CrownCity& shipped, const std::vector<glm::vec3>& truth) {
   return course;
 }
 
-/// What a change is measured beside: the light before it, percent off, and the time of a frame that has all
+/// Controls of a change: the light before it, percent off, and the time of a frame that has all
 /// rays.
 struct Controls {
   double old_off, all_rays_ms;
@@ -429,7 +430,8 @@ void measure_jump(Pair& pair, Report& report) {
   report_course("", course, pair.controls(old, truth), report);
 }
 
-/// As by a hand: a step in each frame, which never has time for rays, and each frame as the viewer sees it.
+/// Measures a drag by hand: a step in each frame, which never has time for rays, and each frame as the viewer
+/// sees it.
 void measure_drag(Pair& pair, bool is_quick, Report& report) {
   const int steps = is_quick ? 4 : 12;
   pair.move(crown_on_crossing_m);

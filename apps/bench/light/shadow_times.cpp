@@ -16,7 +16,7 @@
 namespace parvis::bench {
 namespace {
 
-/// Of one frame.
+/// Cost of one frame.
 struct FrameCost {
   double ms = 0.0, cpu_ms = 0.0;  ///< by the clock, and of all cores
 };
@@ -24,7 +24,7 @@ struct FrameCost {
 /// Either of them.
 using Cost = double FrameCost::*;
 
-/// Of frames in turn: what slows both for a while leaves it as it is.
+/// Median difference of frames drawn in turn: a load that slows both for a while leaves it as it is.
 double median_difference(const std::vector<FrameCost>& more, const std::vector<FrameCost>& less, Cost cost) {
   std::vector<double> differences;
   for (std::size_t i = 0; i < more.size(); ++i) differences.push_back(more[i].*cost - less[i].*cost);
@@ -42,9 +42,9 @@ double median_of(const std::vector<FrameCost>& frames, Cost cost) {
 struct FrameCosts {
   std::vector<FrameCost> rays, maps, kept;
 
-  /// What the drawing of the maps costs.
+  /// Cost of drawing the maps.
   double depth_pass(Cost cost) const { return median_difference(maps, kept, cost); }
-  /// What the rays cost over that. Method rays draws the default's maps, too, whose cost is not that of its
+  /// Cost of the rays over that. Method rays draws the default's maps, too, whose cost is not that of its
   /// rays. No number where either is nothing: the clock has then shown noise.
   double rays_over_depth_pass(Cost cost) const {
     const double beyond_maps = median_difference(rays, maps, cost), drawing = depth_pass(cost);
@@ -61,7 +61,7 @@ constexpr std::size_t max_views = 5;
 constexpr std::size_t min_triangles = 500'000;  // as the issue has them
 constexpr int pictures_per_view = 3;
 
-/// Of a control's sun.
+/// Angle of a control's sun.
 constexpr float off_deg = 2.0f;
 
 /// The light that ships, of which the traced pixels can be read: those that a picture is drawn with.
@@ -73,7 +73,7 @@ class ReadableLight final : public render::LightOver {
     size_ = {width, height};
     return texture_ = LightOver::trace_view(camera, width, height);
   }
-  /// Of the view that was traced last; empty where the technique traces none.
+  /// Shares of the sun in the view that was traced last; empty where the technique traces none.
   SunShares traced(const JudgedPixels& pixels) const {
     if (texture_ == 0 || size_ != glm::ivec2(pixels.width, pixels.height)) return {};
     std::vector<glm::vec2> texels(std::size_t(size_.x) * std::size_t(size_.y));
@@ -132,8 +132,8 @@ class BegunFrames {
   const ReadableLight* light_ = nullptr;
 };
 
-/// What was traced for the pictures that were timed, against the tracer in double precision and against the
-/// same under a sun that is off.
+/// Errors of the sun traced for the pictures that were timed, against the tracer in double precision and
+/// against the same under a sun that is off.
 struct Judgement {
   WrongSun wrong, wrong_of_other_sun;
 

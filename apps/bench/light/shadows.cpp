@@ -36,13 +36,13 @@ class ShadowViewCounter final : public render::Drawable {
   int count_ = 0;
 };
 
-/// With and without shadows: the quotient of both pictures is what shadows leave.
+/// The city with and without shadows: the quotient of both pictures is the light that shadows leave.
 class SunlitCity {
  public:
   /// `twin` is an opaque_twin. Fails if a shader does.
   static std::unique_ptr<SunlitCity> create(const scene::Scene& twin);
 
-  /// Of both scenes: a unit vector.
+  /// Sets the sun of both scenes, a unit vector.
   void set_sun(glm::vec3 to_sun);
   /// The view that is drawn next. Fails as render::draw_frame.
   void look(const Camera& camera);
@@ -69,7 +69,7 @@ class SunlitCity {
 
 constexpr int width = sunlit_pixels.width, height = sunlit_pixels.height;
 
-/// Of an irradiance of 1: what is darker without shadows does not face the sun.
+/// Light of an irradiance of 1 below which, without shadows, a surface does not face the sun.
 constexpr float min_light = 1e-3f;
 
 SunShares shares_of(const ImageF& with, const ImageF& without) {
@@ -131,10 +131,11 @@ using light::ShadowTechnique;
 
 constexpr std::size_t technique_count = light::shadow_technique_names.size();
 
-/// Of the suns of controls: under the one no ray may be taken for another's, under the other no picture.
+/// Angles of the suns of controls: under the one no ray may be taken for another's, under the other no
+/// picture.
 constexpr float slightly_off_deg = 0.006f, off_deg = 2.0f;
 
-/// From two to 69 degrees high: mornings and evenings have the longest shadows.
+/// A sun from two to 69 degrees high: mornings and evenings have the longest shadows.
 glm::vec3 any_sun(Random& random) {
   const float e = random.uniform(0.03f, 1.2f), a = random.uniform(0.0f, 6.2831853f);
   return glm::normalize(glm::vec3(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)));
@@ -153,7 +154,7 @@ SunShares traced_shares(const reference::RayScene& rays, const scene::SunLight& 
 /// Pixels that change between right and wrong from one step of a walk to the next, while the truth stays.
 class Flicker {
  public:
-  /// What is added next is the first step of another walk.
+  /// Begins another walk with the next step that is added.
   void begin() { truth_before_.clear(); }
   void add(const SunPicture& truth, const SunShares& shares) {
     for (std::size_t k = 0; !truth_before_.empty() && k < truth.size(); ++k) {

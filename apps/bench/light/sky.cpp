@@ -182,7 +182,7 @@ class PassingDay {
     if (light_->sky().irradiance_sh == before) fail("\"{}\" has not changed the sky", message);
     return ms;
   }
-  /// From each half hour to the next.
+  /// Times of steps from each half hour to the next.
   std::vector<double> half_hours() {
     std::vector<double> all_ms;
     all_ms.reserve(updates);
@@ -230,7 +230,7 @@ double diffuse_of_scene(const light::SkyModel& sky, int orders = 3) {
   return double(luminance(shading::sky_irradiance(light.irradiance_sh.data(), {0, 0, 1})));
 }
 
-/// By so many paths, or by more if they say too little.
+/// Diffuse light by so many paths, or by more if their error is too large.
 light::BruteForceIrradiance true_diffuse(const light::Air& air, double elevation_deg, int paths) {
   constexpr double max_standard_error = 0.01;
   for (const int more : {1, 2, 4, 8}) {
@@ -301,7 +301,7 @@ void measure_haze(const BenchSetup& setup, Report& report) {
              diffuse_errors(10.0, elevations, setup.is_quick ? 64'000 : 512'000, report).atmosphere);
 }
 
-/// What the GPU has of the sky.
+/// Samples of the sky on the GPU.
 struct GpuSamples {
   SkySamples of_formulas;      ///< of the models' own formulas, and of the C++ build beside them: channels
   SkySamples drawn, darkened;  ///< of the renderer's pictures, and of those of a model that is below zero

@@ -114,8 +114,8 @@ light::SunPeriod hourly(light::SunPeriod period) {
   return period;
 }
 
-/// Of the ground below the leaves of crowns, which let some sun through, in the city as it ships. The truth
-/// are rays of the house's own tracer at each minute: the other one knows no leaves.
+/// Measures the ground below the leaves of crowns, which let some sun through, in the city as it ships. The
+/// truth are rays of the house's own tracer at each minute: the other one knows no leaves.
 void measure_under_trees(const std::vector<int>& days, const scene::Scene& city, Report& report) {
   scene::Scene still = city;
   std::erase_if(still.objects, [](const scene::Object& object) { return object.is_dynamic; });

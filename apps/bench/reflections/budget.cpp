@@ -35,7 +35,7 @@ FrameTime timed_frame(house::Stage& stage, const JudgedMethod& method, glm::ivec
   return time;
 }
 
-/// As small as pictures become.
+/// The smallest size of pictures.
 glm::ivec2 min_size(glm::ivec2 size) {
   render::PictureScale scale;
   for (int frame = 0; frame < settling_frames; ++frame) scale.frame_took(1e3, double(min_budget_ms));
@@ -48,7 +48,7 @@ JudgedMethod with_budget(house::Stage& stage, float budget_ms) {
   return judged_methods(stage, {{"budget", reflection}}).front();
 }
 
-/// What whole frames take with the fewest pixels and the cheapest reflections, and with all and the best.
+/// Times of whole frames with the fewest pixels and the cheapest reflections, and with all and the best.
 std::pair<double, double> range_of_frames(house::Stage& stage, glm::ivec2 size) {
   const JudgedMethod cheapest = with_budget(stage, min_budget_ms), best = with_budget(stage, 0.0f);
   std::vector<double> cheap_ms, expensive_ms;

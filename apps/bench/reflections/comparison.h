@@ -11,7 +11,7 @@
 
 namespace parvis::bench {
 
-/// What is compared, and how thoroughly.
+/// The compared methods, and how thoroughly they are compared.
 struct Comparison {
   WantedMethods methods;  ///< by the names that rows use; the first is "none" where any is timed
   NearViewWish wish = {};
@@ -24,7 +24,7 @@ struct Comparison {
   std::function<void(const NearView&, const std::vector<JudgedMethod>&)> also = {};  ///< in each view
 };
 
-/// What a row of a table reports.
+/// The measure that a row of a table reports.
 enum class Measure : unsigned char {
   flip,        ///< mean FLIP; over that of another method
   worst_flip,  ///< the largest ratio of FLIP over views

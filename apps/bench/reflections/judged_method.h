@@ -11,7 +11,7 @@
 
 namespace parvis::bench {
 
-/// What the pictures of reflections are drawn at, unless another size is said; `--quick` judges at half.
+/// The size of the pictures of reflections, unless another is given; `--quick` judges at half.
 inline constexpr glm::ivec2 full_picture{1280, 720};
 inline constexpr int near_frame_step_ms = 33;  ///< between frames that are timed, as in a film: cars drive on
 

@@ -68,8 +68,8 @@ std::size_t maps_enough(const std::vector<float>& shown, float wanted) {
          1;
 }
 
-/// By how many percent fewer maps than an even spread takes the first of `places` show enough to the points
-/// that judge, not to those that place; no number where they show too little.
+/// The percentage by which the first of `places` that show enough are fewer than an even spread takes, judged
+/// by other points than those that place; no number where they show too little.
 struct Placements {
   const HeightPyramid& heights;
   const std::vector<MirroredPoint>& points;

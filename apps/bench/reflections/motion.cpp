@@ -49,7 +49,7 @@ class Companion {
   glm::mat4 car_from_camera_;
 };
 
-/// What a drive showed: a picture by each method and the true one, of each judged frame.
+/// Pictures of a drive: one by each method and the true one, of each judged frame.
 struct Drive {
   std::vector<Image8> truths, masks;
   std::vector<std::vector<Image8>> pictures;  ///< of each method

@@ -78,7 +78,7 @@ double frame_ms(render::Renderer& renderer, const scene::Scene& scene, const Woo
   return median(samples).value;
 }
 
-/// Of one view, or the worst of several.
+/// Figures of one view, or the worst of several.
 struct DisplayFigures {
   double ms = 0.0, covered_percent = 100.0, flip = 0.0, flip_coarsest = 1.0;
   double ms_finest = std::numeric_limits<double>::max();  // the fastest of the views: a control

@@ -114,7 +114,7 @@ std::shared_ptr<const TreeLevels> levels_from(const TreeVolume& volume, std::spa
 
 namespace {
 
-/// Of what is shown, as a camera of this exposure sees it.
+/// Errors of the shown tree as a camera of this exposure sees it.
 ViewErrors errors_of_shown(ShownTree shown, float exposure, std::span<const TreeView> views) {
   if (views.empty()) fail("there are no views to compare with");
   ViewErrors mean;

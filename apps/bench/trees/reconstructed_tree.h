@@ -23,7 +23,7 @@ class Means {
  public:
   /// The report outlives it.
   explicit Means(Report& report) : report_(report) {}
-  /// What is added from now on is that of this tree.
+  /// Begins a tree, to which all figures added from now on belong.
   void begin_tree(std::string_view name) { tree_ = name; }
   void add(const std::string& key, double value);
   /// Adds all means to the report, in the order in which their keys came first. Fails where one is no finite
@@ -65,7 +65,7 @@ SampleCapture with_photographs(const SampleCapture& capture, int views, const Be
 /// How views are traced that pictures are judged by.
 CaptureOptions truth_options(const BenchCaptureSize& size);
 
-/// What comes of it.
+/// The reconstructed tree and its costs.
 struct ReconstructedTree {
   TreeVolume volume;
   std::shared_ptr<const TreeLevels> levels;  ///< as read back from the file

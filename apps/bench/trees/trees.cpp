@@ -52,9 +52,9 @@ std::shared_ptr<const TreeLevels> thesis_tree(const SampleCapture& capture, cons
   return std::make_shared<const TreeLevels>(levels_of(as_stored(textured(volume, capture.views, textures))));
 }
 
-/// Against the thesis's tree as the same house draws it, with its cutoff or that which photographs that are
-/// held out choose, as for ours, whichever is better; the control is the thesis's start. Beside it what is
-/// due to opacities alone: those of the projection in the cells, iterations and textures of ours.
+/// Compares with the thesis's tree as the same house draws it, with its cutoff or that which photographs that
+/// are held out choose, as for ours, whichever is better; the control is the thesis's start. Beside it what
+/// is due to opacities alone: those of the projection in the cells, iterations and textures of ours.
 void measure_opacity(const SampleCapture& capture, const ReconstructedTree& made,
                      const BenchCaptureSize& size, double alpha_rmse_of_ours, Means& means) {
   const CellGrid cells = thesis_grid(capture, size.options.grid);
@@ -152,7 +152,7 @@ ViewErrors errors_of_crossed(const SampleCapture& capture) {
   return mean;
 }
 
-/// Of pictures in which there is no tree: what a white background alone is worth.
+/// Errors of pictures in which there is no tree: the worth of a white background alone.
 ViewErrors errors_of_nothing(std::span<const TreeView> views) {
   ViewErrors mean;
   for (const TreeView& view : views) {

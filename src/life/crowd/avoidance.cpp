@@ -14,7 +14,7 @@ constexpr std::size_t max_planes = 24;
 float cross(glm::vec2 a, glm::vec2 b) { return a.x * b.y - a.y * b.x; }
 glm::vec2 left_of(glm::vec2 v) { return {-v.y, v.x}; }
 
-/// What is sought on a boundary: the point nearest to `target`, or the one farthest along it.
+/// A goal on a boundary: the point nearest to `target`, or the one farthest along it.
 struct Goal {
   glm::vec2 target;
   bool is_direction = false;

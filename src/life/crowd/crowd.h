@@ -19,7 +19,7 @@ struct Destination {
   float reach_m = 0.45f;  ///< from the line, at which they have arrived
 };
 
-/// What is known of a person beside the arrays of Walkers.
+/// Data of a person beside the arrays of Walkers.
 struct PersonOnTheWay {
   std::uint32_t number = 0;  ///< unique in the crowd; the person's own random numbers follow from it
   int destination = -1;      ///< index of the crowd's; -1: stands

@@ -33,7 +33,7 @@ class CrowdProcess final : public action::Process {
     if (generated_) generated_->adapt(scene, eyes);
   }
 
-  /// After `begin`; nothing where nobody walks.
+  /// The crowd after `begin`; null where nobody walks.
   const Crowd* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
   /// Generated people; nothing where models of the user's walk.
   const ShownPeople* generated() const { return generated_ ? &*generated_ : nullptr; }

@@ -31,7 +31,7 @@ struct TestGround : WalkingGround {
 
 constexpr float step_s = 0.1f, radius_m = 0.19f;
 
-/// For bodies of 0.15 m, on cells of 5 cm: doors of the tests keep their width.
+/// A crowd of bodies of 0.15 m, on cells of 5 cm: doors of the tests keep their width.
 Crowd crowd_on(const WalkingGround& ground) {
   Result<NavMesh> mesh = NavMesh::create(ground, {.cell_m = 0.05f, .body_radius_m = 0.15f});
   EXPECT_TRUE(mesh) << (mesh ? "" : to_string(mesh.errors()));

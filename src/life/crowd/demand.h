@@ -10,7 +10,7 @@
 
 namespace parvis::crowd {
 
-/// What the node `crowd` says.
+/// Settings by the node `crowd`.
 struct CrowdDemand {
   static constexpr std::string_view name = "crowd.demand";
   static constexpr scene::DataRole role =

@@ -20,7 +20,7 @@
 
 namespace parvis::crowd {
 
-/// What a triangle is to people.
+/// The meaning of a triangle to people.
 enum class GroundKind : std::uint8_t {
   obstacle,  ///< nobody walks on it: cars, roofs, planters
   floor,     ///< pavements, squares, steps

@@ -43,7 +43,7 @@ struct MovingBody {
   float bottom_m = -1e9f, top_m = 1e9f;
 };
 
-/// What people do.
+/// Parameters of people's behaviour.
 struct SteeringRules {
   float horizon_s = 1.6f;         ///< for which others are cleared
   float wall_horizon_s = 0.35f;   ///< for which walls are

@@ -19,13 +19,13 @@ class BodyField {
   const BodyShape& shape() const { return shape_; }       ///< lengths, metres
   const Skeleton& skeleton() const { return skeleton_; }  ///< joints in the bind pose
 
-  /// From crotch to neck, with breasts and shoulders.
+  /// Distance to the trunk from crotch to neck, with breasts and shoulders.
   float trunk(glm::vec3 p, float offset_m) const;
-  /// From shoulder to wrist; 1 is left, -1 right.
+  /// Distance to an arm from shoulder to wrist; 1 is left, -1 right.
   float arm(glm::vec3 p, float side, float offset_m) const;
-  /// From hip to ankle.
+  /// Distance to a leg from hip to ankle.
   float leg(glm::vec3 p, float side, float offset_m) const;
-  /// Along the arm from the shoulder, metres: less than 0 towards the neck.
+  /// Place along the arm from the shoulder, metres: less than 0 towards the neck.
   float along_arm(glm::vec3 p, float side) const;
   /// Station of the trunk at a height.
   TrunkStation station(float z) const;

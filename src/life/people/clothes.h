@@ -13,7 +13,7 @@ enum class Bottom : std::uint8_t { trousers, jeans, shorts, skirt, dress };
 enum class Bag : std::uint8_t { none, backpack, shoulder_bag };
 enum class Hat : std::uint8_t { none, cap, woollen };
 
-/// What somebody wears.
+/// The clothes that somebody wears.
 struct Outfit {
   Top top = Top::pullover;
   Bottom bottom = Bottom::trousers;

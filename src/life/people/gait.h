@@ -62,7 +62,7 @@ void put_down(const BodyField& body, const Stride& stride, const Feet& feet, Pos
 /// Both together.
 Posture walking(const BodyField& body, const Stride& stride, const Feet& feet);
 
-/// What people do who do not walk.
+/// Activities of people who do not walk.
 enum class Activity : std::uint8_t { stand, wait, talk, phone, sit };
 
 /// Somebody on the spot, at a time; each by its own number. Sitting: the seat is at `seat_m` above the

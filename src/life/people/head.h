@@ -14,7 +14,7 @@ namespace parvis::people {
 /// How hair is worn.
 enum class HairStyle : std::uint8_t { bald, cropped, parted, bob, long_hair, bun, pony_tail };
 
-/// What makes one face another.
+/// The traits by which faces differ.
 struct HeadLook {
   glm::vec3 skin{0.6f, 0.4f, 0.3f};  ///< linear
   glm::vec3 hair{0.05f, 0.03f, 0.02f};

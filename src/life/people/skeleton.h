@@ -72,7 +72,7 @@ struct Posture {
   Posture() { turn.fill(glm::quat(1, 0, 0, 0)); }
 };
 
-/// Between two postures, 0..1.
+/// A posture between two others, 0..1.
 Posture between(const Posture& a, const Posture& b, float part);
 
 /// model_from_node of all nodes of a person's model (the root and the bones).

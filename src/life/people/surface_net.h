@@ -12,7 +12,7 @@ namespace parvis::people {
 
 inline constexpr float pi = std::numbers::pi_v<float>;
 
-/// About the distance to a surface, metres; negative inside. Its slope is about 1 and nowhere above 1.5.
+/// Approximate distance to a surface, metres; negative inside. Its slope is about 1 and nowhere above 1.5.
 using Field = std::function<float(glm::vec3)>;
 
 /// The smaller of two fields, rounded where they differ by less than `width` (Inigo Quilez's polynomial
@@ -26,7 +26,7 @@ inline float smooth_max(float a, float b, float width) { return -smooth_min(-a, 
 
 /// Distance to a cone between two spheres, about; exact where the radii are equal.
 float round_cone(glm::vec3 p, glm::vec3 a, glm::vec3 b, float ra, float rb);
-/// About the distance to an ellipsoid.
+/// Approximate distance to an ellipsoid.
 float ellipsoid(glm::vec3 p, glm::vec3 centre, glm::vec3 radii);
 
 /// Smooth noise about 0 between -1 and 1 with features of size 1.

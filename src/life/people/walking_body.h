@@ -34,7 +34,7 @@ class WalkingBody {
 
   /// False when it stands, or shifts its feet where it stands.
   bool walks() const { return now_.walks; }
-  /// What it does when it stands.
+  /// Its activity when it stands.
   Activity activity = Activity::stand;
 
  private:

@@ -23,7 +23,7 @@ inline float free_acceleration(const Driver& driver, float speed, float wanted) 
   return std::max(driver.acceleration * (1.0f - ratio * ratio * ratio * ratio), -driver.deceleration);
 }
 
-/// What an obstacle `gap_m` ahead, moving at `obstacle_speed`, takes away from the free acceleration, m/s2.
+/// Reduction of the free acceleration, m/s2, by an obstacle `gap_m` ahead that moves at `obstacle_speed`.
 inline float interaction(const Driver& driver, float speed, float gap_m, float obstacle_speed) {
   const float approach =
       speed * (speed - obstacle_speed) / (2.0f * std::sqrt(driver.acceleration * driver.deceleration));

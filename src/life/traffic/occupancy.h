@@ -18,7 +18,7 @@ struct Presence {
 /// Presences by lane: a linked list per lane, in storage that is allocated once.
 class Occupancy {
  public:
-  /// For a fixed number of lanes, all empty.
+  /// Creates a fixed number of lanes, all empty.
   explicit Occupancy(std::size_t lanes) : first_(lanes, none) {}
 
   /// Allocates storage for this many presences in all.

@@ -25,9 +25,9 @@ class Simulation {
   /// Advances the simulation by `step_s`. Allocates no memory.
   void step();
 
-  /// Of the road graph, after streets are cut.
+  /// Lanes of the road graph after streets are cut.
   const std::vector<DrivingLane>& lanes() const { return lanes_; }
-  /// In the order in which they were placed.
+  /// Vehicles in the order in which they were placed.
   const std::vector<Vehicle>& vehicles() const { return vehicles_; }
 
  private:

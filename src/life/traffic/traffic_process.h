@@ -25,7 +25,7 @@ class TrafficProcess final : public action::Process {
   void step(const scene::Scene&) override { traffic_->step(); }
   void present(scene::Scene& scene, double ahead_s) override { traffic_->place(scene, ahead_s); }
 
-  /// After `begin`.
+  /// The traffic after `begin`.
   const Traffic& traffic() const { return *traffic_; }
 
  private:

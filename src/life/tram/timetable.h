@@ -22,7 +22,7 @@ struct Stop {
   bool is_on_left = false;  ///< side of its platform
 };
 
-/// What a tram does at a time of its run.
+/// State of a tram at a time of its run.
 struct Moment {
   double front_m = 0.0;  ///< along the line
   float speed_m_s = 0.0f;
@@ -39,7 +39,7 @@ class Timetable {
             float max_speed_m_s, float tram_length_m);
 
   double duration_s() const { return arrives_s_.back(); }  ///< of the run
-  /// What the tram does `time_s` after the run began; before and after it: as at its ends.
+  /// The tram's state `time_s` after the run began; before and after it: as at its ends.
   Moment at(double time_s) const;
 
   const std::vector<Stop>& stops() const { return stops_; }  ///< in their order

@@ -25,7 +25,7 @@ float side_y(float z) {
   return half - 0.055f * above * above - 0.10f * below;
 }
 
-/// What a cab's cross-section is at a distance from its end: breadth, and how far the roof comes down.
+/// A cab's cross-section at a distance from its end: breadth, and how far the roof comes down.
 struct Narrowing {
   float breadth = 1.0f, roof_drop = 0.0f;
 };

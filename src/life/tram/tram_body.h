@@ -21,9 +21,9 @@ inline constexpr float max_gradient = 0.09f;  ///< that the vehicle climbs
 
 /// Lengths of the sections between their joints, from the front, metres.
 inline constexpr std::array<float, section_count> section_length_m{6.8f, 6.6f, 5.2f, 6.6f, 6.8f};
-/// From the front to the middle of the bogie of a section that has one.
+/// Distance from a section's front to the middle of its bogie, if it has one.
 inline constexpr std::array<float, section_count> bogie_m{4.6f, 0.0f, 2.6f, 0.0f, 2.2f};
-/// Of the whole tram.
+/// Length of the whole tram.
 inline constexpr float length_m = 32.0f;
 
 /// Sections alike in shape share a model.

@@ -12,7 +12,8 @@ namespace parvis::tram {
 
 inline constexpr int max_trams = 24;  ///< on one line at a time
 
-/// What `tram` makes; trams follow each other at the headway, from one end of the track to the other.
+/// The line that a node `tram` makes; trams follow each other at the headway, from one end of the track to
+/// the other.
 struct TramLine {
   static constexpr std::string_view name = "tram.line";
   static constexpr scene::DataRole role =

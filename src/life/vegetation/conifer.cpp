@@ -30,7 +30,7 @@ struct Place {
   float radius_m;
 };
 
-/// At a share of the branch's points.
+/// The place at a fraction of the branch's points.
 Place place_on(const Branch& branch, float share) {
   const float at = share * float(branch.points.size() - 1);
   const std::size_t k = std::min(std::size_t(at), branch.points.size() - 2);

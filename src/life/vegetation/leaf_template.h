@@ -28,9 +28,9 @@ struct LeafTemplate {
   std::vector<glm::vec3> normals;      ///< unit, one per point
   std::vector<std::uint16_t> indices;  ///< triangles, counter-clockwise seen from above
 
-  /// Of the mesh.
+  /// Number of triangles of the mesh.
   std::size_t triangle_count() const { return indices.size() / 3; }
-  /// Of one side, in squared leaf lengths.
+  /// Area of one side, in squared leaf lengths.
   float area() const;
 };
 

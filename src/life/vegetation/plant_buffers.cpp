@@ -15,7 +15,7 @@ Halves packed_halves(float x, float y, float z, float w) {
   return std::bit_cast<Halves>(glm::packHalf4x16(glm::vec4(x, y, z, w)));
 }
 
-/// As leaf_vertex.glsl reads a corner of a leaf.
+/// A corner of a leaf as leaf_vertex.glsl reads it.
 struct LeafCorner {
   glm::vec3 foot;
   Halves offset_and_openness;
@@ -23,14 +23,14 @@ struct LeafCorner {
   Halves place_and_rank;
 };
 
-/// As leaf_vertex.glsl reads a point.
+/// A point as leaf_vertex.glsl reads it.
 struct LeafPoint {
   glm::vec3 middle;
   Halves size_openness_rank;
   std::uint32_t normal_and_tint;
 };
 
-/// As wood_vertex.glsl reads a corner of a tube or the end of a line.
+/// A corner of a tube, or the end of a line, as wood_vertex.glsl reads it.
 struct WoodCorner {
   glm::vec3 position;
   std::uint32_t normal_and_openness;

@@ -50,7 +50,7 @@ class PlantBuffers {
   gl::VertexArray leaf_array_, point_array_, wood_array_, line_array_;
 };
 
-/// What a draw command says of its plant: an instance of plant_record.glsl.
+/// A draw command's data of its plant: an instance of plant_record.glsl.
 struct PlantRecord {
   std::array<glm::vec4, 3> rows;  ///< of world_from_plant
   glm::vec4 shown;                ///< share shown, share of the fade, growth of lengths, scale

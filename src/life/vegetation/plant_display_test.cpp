@@ -56,7 +56,7 @@ class PlantDisplay : public gl::ContextTest {
     EXPECT_TRUE(render::draw_frame(renderer, scene_, {camera_, width, height}));
     return shading::tone_mapped_picture(renderer.read_radiance(), 1.0f);
   }
-  /// With all geometry, whatever its size.
+  /// The picture with all geometry, whatever its size.
   Image8 drawn_in_full(render::Renderer& renderer) {
     scene_.data<PlantDetail>().is_full = true;
     const Image8 picture = drawn(renderer);

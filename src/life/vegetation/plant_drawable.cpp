@@ -26,7 +26,7 @@ namespace {
 
 using render::Culling, render::Pass, render::View, render::ViewKind, render::ViewPrograms;
 
-/// As glMultiDrawElementsIndirect and glMultiDrawArraysIndirect read them.
+/// Commands as glMultiDrawElementsIndirect and glMultiDrawArraysIndirect read them.
 struct IndexedCommand {
   std::uint32_t count, instances, first_index;
   std::int32_t base_vertex;
@@ -36,8 +36,8 @@ struct ArrayCommand {
   std::uint32_t count, instances, first, record;
 };
 
-/// What one view shows, and the memory it stands in: the main view's is its own, for other views are drawn
-/// between its preparation and its drawing.
+/// The draw list of one view, and its memory: the main view's is its own, for other views are drawn between
+/// its preparation and its drawing.
 struct DrawList {
   PlantSelection selection;
   std::vector<PlantRecord> records;

@@ -9,7 +9,7 @@ namespace parvis::vegetation {
 /// The kind: drawn (plant_drawable.cpp) and traced (traced_plants.cpp).
 render::DrawableKind scene_plants_kind();
 
-/// What rays see of them: the real geometry.
+/// Plants as rays see them: the real geometry.
 scene::TracedKind traced_plants();
 
 }  // namespace parvis::vegetation

@@ -30,7 +30,8 @@ struct PlantKind {
   bool grows_in_whorls = false;           ///< of trees: as grow_in_whorls does, else they fork (grow_tree)
   LeafForm leaf;
   float leaf_m;  ///< mean length
-  /// Of trees: leaves at the usual height. Of the others: per square metre of hedge's surface, of ground.
+  /// Number of leaves: of a tree at the usual height; of others per square metre of hedge's surface, of
+  /// ground.
   float leaves;
   glm::vec3 dark, light;          ///< leaves lie between the two
   float translucency, roughness;  ///< of the leaves

@@ -13,13 +13,14 @@ struct LeafShares {
   bool has_triangles() const { return simple > 0.0f; }
 };
 
-/// By the resolution, pixels per metre (infinity where the eye may be within). All of them change
-/// continuously: a leaf changes from one form to the next when it has a few pixels, and not all do at once.
+/// Shares of the forms of leaves by the resolution, pixels per metre (infinity where the eye may be within).
+/// All of them change continuously: a leaf changes from one form to the next when it has a few pixels, and
+/// not all do at once.
 LeafShares leaf_shares(const PlantShape& shape, float pixels_per_metre);
 
 /// The last leaves that are shown grow into view over a band of this share; none where all are shown.
 float fading_share(float shown);
-/// By how much the area of the leaves that are shown grows, so that it stays that of all.
+/// Factor on the area of the leaves that are shown, so that it stays that of all.
 float area_growth(float shown);
 
 /// Width of the lines that stand for twigs, pixels.
@@ -30,7 +31,7 @@ struct WoodShares {
   std::uint32_t pieces = 0;  ///< the thickest
   std::uint32_t twigs = 0;   ///< in prefix order
 };
-/// By the resolution, pixels per metre: wood as wide as a line has triangles.
+/// Shares of the forms of wood by the resolution, pixels per metre: wood as wide as a line has triangles.
 WoodShares wood_shares(const PlantShape& shape, float pixels_per_metre);
 
 /// Index in PlantShape::clustered behind the last leaf of a cluster that is within a share of all leaves.

@@ -39,7 +39,7 @@ struct SelectedWood {
   WoodShares shares;
 };
 
-/// What is drawn, counted.
+/// Counts of drawn primitives.
 struct PlantStatistics {
   std::size_t triangles = 0, points = 0, lines = 0;
   std::size_t all() const { return triangles + points + lines; }  ///< their sum

@@ -47,7 +47,7 @@ float surface_of_hedge(const PlantRecipe& recipe) {
   return recipe.length_m * (2.0f * recipe.height_m + d) + 2.0f * d * recipe.height_m;
 }
 
-/// By the kind's density alone.
+/// Number of leaves by the kind's density alone.
 float natural_leaves(const PlantRecipe& recipe) {
   const PlantKind& kind = *recipe.kind;
   const float grown = recipe.height_m / kind.height_m;

@@ -15,7 +15,7 @@
 
 namespace parvis::vegetation {
 
-/// What a plant is grown from; equal recipes grow equal plants on every machine.
+/// The recipe from which a plant is grown; equal recipes grow equal plants on every machine.
 struct PlantRecipe {
   const PlantKind* kind = nullptr;
   float height_m = 1.0f;
@@ -71,9 +71,9 @@ struct PlantShape {
   float mean_leaf_area_m2 = 0.0f;    ///< of one side
   Bounds bounds;
 
-  /// What it was grown as.
+  /// The kind as which it was grown.
   const PlantKind& kind() const { return *recipe.kind; }
-  /// Of the real geometry: full leaves and all wood.
+  /// Number of triangles of the real geometry: full leaves and all wood.
   std::size_t triangle_count() const;
 };
 
@@ -84,7 +84,7 @@ inline constexpr std::size_t max_leaves = 400'000;
 /// How many leaves grow from a recipe.
 std::size_t leaf_count(const PlantRecipe& recipe);
 
-/// What the real geometry of such a plant and its points take in memory, estimated before it is grown.
+/// Memory of the real geometry of such a plant and its points, bytes, estimated before it is grown.
 std::uint64_t estimated_bytes(const PlantRecipe& recipe);
 
 /// Grows a plant. `recipe` is within the bounds of its kind; its length is finite and positive.

@@ -20,7 +20,7 @@ class Body {
 
   const scene::Model& model() const { return model_; }
   const Bounds& bounds() const { return bounds_; }  ///< of what triangles use
-  /// Of the plane about which the sides are alike; mirrors and aerials on one side count for nothing.
+  /// Place of the plane about which the sides are alike; mirrors and aerials on one side count for nothing.
   float middle_y() const { return middle_y_; }
   /// car_from_node of a part's node.
   const glm::mat4& car_from_part(std::size_t part) const { return pose_[std::size_t(part_of(part).node)]; }

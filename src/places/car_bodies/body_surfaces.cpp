@@ -31,7 +31,7 @@ constexpr std::string_view rubber_words[] = {"rubber", "seal", "tyre", "tire", "
 constexpr std::string_view plastic_words[] = {"plastic", "trim", "grill", "carbon", "wiper"};
 constexpr std::string_view paint_words[] = {"paint", "lacquer", "carros", "autolack"};
 
-/// What a name says, if anything.
+/// The finish that a name states, if any.
 std::optional<Finish> finish_named(const std::string& given) {
   const std::string name = lower_case(given);
   const auto holds = [&](const auto& words) {
@@ -69,7 +69,7 @@ bool lets_light_through(const scene::Material& material) {
   return material.alpha_mode == scene::Alpha::blend && material.alpha < 1.0f;
 }
 
-/// What names, place and colour of a material or of one of its parts show, if anything; `outer_m2` of the
+/// The finish by names, place and colour of a material or of one of its parts, if any; `outer_m2` of the
 /// car.
 std::optional<Finish> finish_shown(const std::optional<Finish>& named, bool sees_through, const Areas& of,
                                    float outer_m2) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int x_axis = 0, y_axis = 1, z_axis = 2;
 
-/// Of cars, vans and buses over everything, metres.
+/// Sizes of cars, vans and buses over everything, metres.
 constexpr float min_length_m = 2.5f, max_length_m = 20.0f, usual_length_m = 4.4f;
 constexpr float min_width_m = 1.0f, max_width_m = 3.3f;  // from microcars to buses with mirrors
 constexpr float min_height_m = 0.8f, max_height_m = 4.6f;

@@ -11,7 +11,7 @@
 
 namespace parvis::car_bodies {
 
-/// All in the frame of the car: metres, x forward, the middle plane at y = 0.
+/// Measures in the frame of the car: metres, x forward, the middle plane at y = 0.
 struct CarSurvey {
   CarFrame frame;
   std::vector<OwnWheel> wheels;  ///< that the model has

@@ -28,7 +28,7 @@ bool is_front_lamp(const SurfaceSample& s) {
   return s.forward > 0.35f && s.srgb.x > 0.7f && s.srgb.y > 0.6f && s.srgb.z < 0.5f;
 }
 
-/// As dark as a hole or as grey as a pane, wherever it lies.
+/// Decides whether a sample is as dark as a hole or as grey as a pane, wherever it lies.
 bool has_colour_of_pane(const SurfaceSample& sample, glm::vec3 paint) {
   constexpr float max_light = 0.92f;
   const float light = (sample.srgb.x + sample.srgb.y + sample.srgb.z) / 3.0f;

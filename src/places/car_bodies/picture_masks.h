@@ -17,7 +17,7 @@ struct PictureMask {
   bool is_grey = false;
   float tolerance = 0.0f;  ///< of the colour or the grey, largest difference of a channel
 
-  /// As the attribute `mask` spells it: "box 0.1 0.2 0.3 0.4 grey 0.085".
+  /// The text that the attribute `mask` takes: "box 0.1 0.2 0.3 0.4 grey 0.085".
   std::string text() const;
   /// Whether the triangle's middle lies in it.
   bool holds(const SurfaceSample& sample) const;

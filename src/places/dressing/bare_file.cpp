@@ -64,7 +64,7 @@ bool is_bare_land(const Model& model) {
                              [&](const Part& part) { return material_of(model, part).name == "TINRelief"; });
 }
 
-/// In plan, m2.
+/// Area in plan, m2.
 double area_of(const Model& model, const std::string& name) {
   double area = 0.0;
   for (const Part& part : model.parts) {
@@ -172,7 +172,7 @@ std::string furnished_circle(const std::vector<scene::Road>& streets, glm::vec3 
   return fmt::format(", around={}, within={}", point(eye), radius_m);
 }
 
-/// What stands along kerbs: generated trees where the file has none.
+/// Nodes of things along kerbs: generated trees where the file has none.
 std::string nodes_of_kerbs(const Model& model, const std::vector<scene::Road>& streets, glm::vec3 eye) {
   if (streets.empty()) return "";
   const bool has_trees =

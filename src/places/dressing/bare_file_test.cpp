@@ -156,7 +156,7 @@ Model street_in_a_large_place() {
   return model;
 }
 
-/// From here to as far in the east, through the street of houses.
+/// A street from `west_m` to as far in the east, through the street of houses.
 std::vector<scene::Road> street_from(float west_m) {
   std::vector<scene::Road> roads(1);
   roads.front().path = {{west_m, 0, 0}, {-west_m, 0, 0}};

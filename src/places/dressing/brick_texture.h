@@ -18,7 +18,7 @@ struct BrickWalls {
   Image8 normal, surface;
 };
 
-/// What a sheet shows.
+/// The content of a sheet.
 enum class BrickSheet : std::uint8_t {
   storeys,  ///< a window in each bay, every one a little different
   street,   ///< the bands of street_level_texture.h
@@ -40,7 +40,7 @@ void paint_bricks(city::SurfaceCanvas& canvas, std::uint32_t seed);
 /// The colour that `paint_bricks` paints them in, linear.
 glm::vec3 painted_brick();
 
-/// What is painted with `factor` times its colour where its alpha is 0, unchanged where it is 1; opaque.
+/// The painted picture with `factor` times its colour where its alpha is 0, unchanged where it is 1; opaque.
 Image8 in_colour(const Image8& painted, glm::vec3 factor);
 
 /// Bricks on end over an opening whose top is at `top_m`, `half_m` to both sides of its middle `x_m`.

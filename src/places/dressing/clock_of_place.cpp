@@ -82,7 +82,7 @@ std::optional<RulePart> take_part(std::string_view& rule) {
   return part;
 }
 
-/// Of a rule such as "CET-1CEST,M3.5.0,M10.5.0/3": what its summer has, else what it always has.
+/// Hours of a rule such as "CET-1CEST,M3.5.0,M10.5.0/3" in summer, else those that it always has.
 std::optional<double> summer_hours(std::string_view rule) {
   const std::optional<RulePart> standard = take_part(rule);
   if (!standard || !standard->west_h) return std::nullopt;

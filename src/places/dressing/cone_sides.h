@@ -10,7 +10,7 @@
 
 namespace parvis::dressing {
 
-/// What makes a triangle the side of a cone.
+/// Properties of a triangle that is a side of a cone.
 struct ConeSide {
   std::size_t top = 0;               ///< number of its corner at the cone's top
   std::array<glm::vec3, 3> normals;  ///< of its corners: unit, in the model's frame
@@ -18,7 +18,7 @@ struct ConeSide {
         slope_m = 0.0f;  ///< from the top to the foot, in plan and in space: the cone's means
 };
 
-/// For each triangle of `roofs` that is one of 12 or more around the top of a cone, what it is there. Normals
+/// Sides of cones among the triangles of `roofs`: those that are 12 or more around the top of a cone. Normals
 /// lie halfway to the next triangle's where they turn by up to 30 degrees. Pyramids of fewer sides have
 /// edges.
 std::vector<std::optional<ConeSide>> cone_sides(const std::vector<ModelTriangle>& roofs);

@@ -41,7 +41,7 @@ constexpr float nave_foot_m = 1.4f, nave_m = 12.0f, nave_bay_m = 4.6f;
 constexpr float nave_top_m = 0.5f, lowest_nave_m = 4.5f;  // of wall above; lower walls have no windows
 constexpr float below_next_row = 0.01f;                   // share of a cell of a sheet
 
-/// What the walls of one house have in common.
+/// Properties that the walls of one house have in common.
 struct HouseStyle {
   int colour;
   float storey_m, bay_m;
@@ -197,7 +197,7 @@ std::vector<glm::vec3> middles_of(const std::set<const scene::Part*>& openings, 
   return middles;
 }
 
-/// Of the lowest and of the highest point.
+/// Heights of the lowest and of the highest point.
 std::pair<float, float> bottom_and_top(const std::vector<ModelTriangle>& pieces) {
   float bottom_m = 1e30f, top_m = -1e30f;
   for (const ModelTriangle& piece : pieces)
@@ -326,7 +326,7 @@ class Dresser {
             brick_sheet_m(sheet) / glm::vec2(brick_bay_m, brick_storey_m)};
   }
 
-  /// Of the house's look; gates of common bricks are those of no certain time.
+  /// The sheet in the house's look; gates of common bricks are those of no certain time.
   StripSheet sheet_of(KindSheet sheet) {
     return {materials_.of(sheet, style_.look.value_or(WallLook{}), style_.colour), layout_of(sheet).count};
   }
@@ -353,7 +353,7 @@ class Dresser {
     }
   }
 
-  /// Of the curve that the panel is a facet of, at a place along it.
+  /// Normal of the curve that the panel is a facet of, at a place along it.
   glm::vec3 normal_at(float place) const {
     const float share = (place - panel_->low.x) / std::max(panel_->high.x - panel_->low.x, 1e-4f);
     return glm::normalize(glm::mix(panel_->run.first_normal, panel_->run.last_normal, share));

@@ -111,7 +111,7 @@ TEST(Facades, NoWallIsLostOrDoubled) {
   }
 }
 
-/// What a wall's clipping may lose: nothing but rounding.
+/// A wall's clipping may lose nothing but rounding.
 void expect_all_kept(scene::Model model, const char* what) {
   const double area = area_of(model, "building");
   add_facades(model, "*");

@@ -12,7 +12,7 @@
 
 namespace parvis::dressing {
 
-/// What a sheet of a kind of wall shows.
+/// The content of a sheet of a kind of wall.
 enum class KindSheet : std::uint8_t {
   plain,    ///< no openings
   storeys,  ///< a window in each bay

@@ -79,7 +79,7 @@ class RoofFinder {
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> at_;
 };
 
-/// What lies on the other side of a flat roof's edge.
+/// The roof on the other side of a flat roof's edge.
 enum class Beside { nothing, equal, higher };
 
 /// An edge of a flat roof; the roof is on its left.
@@ -95,7 +95,7 @@ struct Ridge {
   vec3 from, to;
 };
 
-/// What is known of the roofs of one building.
+/// Data of the roofs of one building.
 struct BuildingRoofs {
   std::vector<RoofEdge> edges;
   Ridge ridge{};  ///< the longest
@@ -308,7 +308,7 @@ bool has_room(vec2 middle, float around_m, float height, const RoofFinder& finde
   return true;
 }
 
-/// By the party wall where there is one, else by the longest edge.
+/// Adds a chimney by the party wall where there is one, else by the longest edge.
 void add_flat_chimney(const BuildingRoofs& building, Materials& materials, const RoofFinder& finder,
                       Random& random, Builder& builder) {
   const RoofEdge* best = nullptr;
@@ -327,7 +327,7 @@ void add_flat_chimney(const BuildingRoofs& building, Materials& materials, const
   add_chimney(building.node, materials, middle, best->along(), at.z - 0.05f, high, random, builder);
 }
 
-/// By the gable, and on long ridges where the party walls of a row of houses would be.
+/// Adds chimneys by the gable, and on long ridges where the party walls of a row of houses would be.
 void add_ridge_chimneys(const BuildingRoofs& building, Materials& materials, Random& random,
                         Builder& builder) {
   vec3 from = building.ridge.from, to = building.ridge.to;

@@ -9,7 +9,7 @@
 
 namespace parvis::dressing {
 
-/// What a band shows, from the foot of the sheet up.
+/// The content of a band, from the foot of the sheet up.
 enum class StreetBand : std::uint8_t {
   houses,      ///< a front door and three windows
   wide_panes,  ///< a door with a side light, wide windows

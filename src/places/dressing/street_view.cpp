@@ -30,7 +30,7 @@ constexpr float overview_radius_m = 130.0f;
 constexpr int headings = 24;
 const glm::vec2 to_sun(-0.6f, -0.8f);  // in the afternoon
 
-/// What blocks the view of a person, in plan, and how high it reaches.
+/// Obstacles to the view of a person, in plan, and how high they reach.
 struct Obstacles {
   scene::Mask mask;
   scene::GroundRaster<float> tops;  ///< of the mask's cells
@@ -148,8 +148,8 @@ class Judge {
            (0.6f + 0.4f * lit);
   }
 
-  /// From this stand toward the middle of what is seen there, and as high as to show it whole where that can
-  /// be.
+  /// A view from this stand toward the middle of the visible part, as high as to show it whole where
+  /// possible.
   View aimed(const Stand& stand, const glm::vec3& eye) const {
     constexpr int rays = 41;
     constexpr float half_angle = 0.6f;
@@ -331,13 +331,13 @@ bool fits(const Bounds& bounds, const View& view) {
   return true;
 }
 
-/// From this direction in plan, down onto a spot.
+/// A view from this direction in plan, down onto a spot.
 View view_from_above(glm::vec3 spot, glm::vec2 toward, float radius_m) {
   return {spot + radius_m * glm::vec3(1.3f * toward, 0.75f), spot};
 }
 
-/// From so far away in this direction that the whole, from its foot to its top, is in the picture of a camera
-/// with the usual field of view.
+/// A view from so far away in this direction that the whole, from its foot to its top, is in the picture of a
+/// camera with the usual field of view.
 View facing_view(const Bounds& bounds, glm::vec2 toward, const scene::PlaceHeights& place) {
   constexpr float step = 1.06f;
   constexpr int steps = 40;  // up to twelve radii

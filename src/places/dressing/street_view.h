@@ -19,17 +19,17 @@ struct View {
 View street_view(const scene::Scene& scene, const scene::PlaceHeights& place,
                  std::span<const scene::Road> roads);
 
-/// Of a house or a thing that stands alone: from its sunny side, so far away that it is seen whole.
+/// A view of a house or a thing that stands alone, from its sunny side, so far away that it is seen whole.
 View outside_view(const scene::Scene& scene, const scene::PlaceHeights& place);
 
-/// Of land on which nothing stands: from so high above its sunny side that all of it is seen.
+/// A view of land on which nothing stands, from so high above its sunny side that all of it is seen.
 View land_view(const scene::Scene& scene);
 
-/// Of that land as a person sees it who stands on it, in its sunny half.
+/// A view of that land as a person sees it who stands on it, in its sunny half.
 View view_on_land(const scene::Scene& scene, const scene::PlaceHeights& place);
 
-/// From above the surroundings of `street` (130 m around), or the whole place where it is smaller, from its
-/// foot to its top.
+/// A view from above the surroundings of `street` (130 m around), or the whole place where it is smaller,
+/// from its foot to its top.
 View overview(const scene::Scene& scene, const scene::PlaceHeights& place, const View& street);
 
 /// Carriageways that a model has as surfaces ("Road"), as centre lines; empty where it has none.

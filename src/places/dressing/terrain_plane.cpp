@@ -199,7 +199,7 @@ void add_part(scene::Model& model, const std::string& object, const std::string&
   model.parts.push_back(std::move(part));
 }
 
-/// Without points between others of the same height on a straight side: every 16th stays.
+/// The ring without points between others of the same height on a straight side: every 16th stays.
 std::vector<glm::vec3> without_even_points(const std::vector<glm::vec3>& ring) {
   std::vector<glm::vec3> kept;
   int left_out = 0;

@@ -152,7 +152,7 @@ std::vector<float> break_points(const Surface& surface, const std::vector<ModelT
   return kept;
 }
 
-/// Just after and just before each two neighbours of break points.
+/// Places just after and just before each two neighbours of break points.
 std::vector<float> beside(const std::vector<float>& break_points) {
   std::vector<float> places;
   for (std::size_t i = 0; i + 1 < break_points.size(); ++i)
@@ -221,7 +221,7 @@ void add_panels(Surface surface, const std::vector<ModelTriangle>& walls, std::v
   share_out(surface, walls, along, std::span(panels).subspan(first_panel));
 }
 
-/// In plan, a place on a panel.
+/// A place on a panel, in plan.
 glm::vec2 spot(const WallPanel& panel, float place) {
   return glm::vec2(panel.along) * place + glm::vec2(panel.normal) * panel.offset_m;
 }

@@ -158,7 +158,7 @@ void FreeGround::take_floor(vec3 a, vec3 b, vec3 c) {
   });
 }
 
-/// What lies level is ground, or a roof above what stands.
+/// Takes a triangle, which is ground if it is level, or a roof above things that stand.
 void FreeGround::take_triangle(vec3 a, vec3 b, vec3 c) {
   const vec2 low = glm::min(vec2(a), glm::min(vec2(b), vec2(c))),
              high = glm::max(vec2(a), glm::max(vec2(b), vec2(c)));

@@ -13,11 +13,12 @@ namespace parvis::kerbside {
 /// A plan of what is taken: carriageways, walls, and whatever else stands on the ground.
 class FreeGround {
  public:
-  /// What the plan takes in memory: a byte for each cell between the outermost lanes, inside `area`.
+  /// Memory of the plan: a byte for each cell between the outermost lanes, inside `area`.
   static std::uint64_t bytes(const scene::RoadGraph& roads, const Bounds& area);
-  /// Of a scene whose lanes are laid. What stands between 0.35 m and 3.5 m above the ground takes its place;
-  /// what hangs higher does not. Tunnels ("Road tunnel") have no room. Of trees that are grown plants, the
-  /// trunks do. The plan ends with `area` (x and y), if the lanes reach farther: beyond it nothing is free.
+  /// The free ground of a scene whose lanes are laid. Things between 0.35 m and 3.5 m above the ground take
+  /// their place; those that hang higher do not. Tunnels ("Road tunnel") have no room. Of trees that are
+  /// grown plants, the trunks do. The plan ends with `area` (x and y), if the lanes reach farther: beyond it
+  /// nothing is free.
   FreeGround(const scene::Scene& scene, const Bounds& area);
   /// An area without an end.
   static Bounds everywhere();

@@ -17,7 +17,7 @@ struct Circle {
   bool contains(glm::vec2 point) const { return glm::distance(point, middle) <= radius_m; }
 };
 
-/// What stands in a series, and how near to what. Metres.
+/// The spacing of a series, and its distances to other things. Metres.
 struct KerbSeries {
   float spacing_m = 9.0f;
   float beside_m = 0.9f;              ///< from the edge of the lane outward; below 0: on the lane

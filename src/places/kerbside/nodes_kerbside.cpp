@@ -44,11 +44,11 @@ struct PlannedSeries {
   bool is_visible = true;
   bool is_car = false;  ///< takes reflections and is dynamic: reference maps leave it out
 
-  /// What follows from the script is in the objects.
+  /// Adds the name alone: all that follows from the script is in the objects.
   void hash(ContentHash& hash) const { hash.add_text(object_name); }
 };
 
-/// What is repeated: models, and how each is turned and scaled.
+/// Repeated things: models, and how each is turned and scaled.
 struct Repeated {
   StreetModel look;
   glm::mat3 turn{1.0f};
@@ -213,7 +213,8 @@ void build_street_furniture(const scene::Node& node, scene::SceneBuilder& builde
   if (read_circle(node, builder, planned.series)) builder.add(std::move(planned));
 }
 
-/// At so many places. Empty, and an error of the builder, where no object has such a name.
+/// The things repeated at so many places. Empty, and an error of the builder, where no object has such a
+/// name.
 std::vector<Repeated> what_is_repeated(const PlannedSeries& planned, std::size_t places,
                                        scene::SceneBuilder& builder) {
   std::vector<Repeated> repeated;
@@ -286,7 +287,7 @@ void set_up(const PlannedSeries& planned, int maker, FreeGround& ground, scene::
   builder.add_for(maker, std::move(objects));
 }
 
-/// What the circles of all series cover; everything where one has none.
+/// The area that the circles of all series cover; everything where one has none.
 Bounds area_of(const std::vector<PlannedSeries>& all) {
   constexpr float margin_m = 5.0f;  // for what stands at the edge
   Bounds area;

@@ -39,10 +39,11 @@ struct PlannedTrees {
   std::string of, target, kind;
   std::uint64_t seed = 1;
   FileLocation where_of, where_target;
-  /// By original, while somebody holds it: equal objects share what is left, also when they are rebuilt.
+  /// Results by original, while somebody holds it: equal objects share the remaining model, also when they
+  /// are rebuilt.
   std::map<std::weak_ptr<const scene::Model>, TakenTrees, std::owner_less<>> taken = {};
 
-  /// What follows from the script is in the plants.
+  /// Adds the attributes alone: all that follows from the script is in the plants.
   void hash(ContentHash& hash) const { hash.add_text(of), hash.add_text(target), hash.add_text(kind); }
 };
 

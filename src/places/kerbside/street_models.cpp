@@ -101,7 +101,7 @@ std::size_t bodies_of(const StreetModels& models) {
   return bodies.size();
 }
 
-/// What turns by itself, as wheels do, touches nothing else.
+/// Simplifies a car; a part that turns by itself, as a wheel, touches nothing else.
 void simplify_car(scene::Model& car) {
   std::map<int, std::vector<Mesh*>> meshes_of;  // by the nodes of their parts
   for (scene::Part& part : car.parts) meshes_of[part.node].push_back(&part.mesh);

@@ -44,14 +44,14 @@ scene::Material glazed(scene::Material m) {
   return m;
 }
 
-/// What light from outside must not pass, but what hides no sky: the sky's picture is the light of the room
-/// (kitchen_light.h), and walls would keep it off. Cut-outs without holes are that.
+/// A material that light from outside does not pass, but that hides no sky: the sky's picture is the light of
+/// the room (kitchen_light.h), and walls would keep it off. Cut-outs without holes are that.
 scene::Material room_shell(scene::Material m) {
   m.alpha_mode = scene::Alpha::cutout, m.is_double_sided = true;
   return m;
 }
 
-/// In the order of KitchenMaterial.
+/// All materials in the order of KitchenMaterial.
 std::vector<scene::Material> all_materials() {
   const glm::vec3 white(1.0f);
   std::vector<scene::Material> all{glazed(plain("tiles", white, 1.0f)),

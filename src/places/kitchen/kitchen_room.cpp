@@ -121,7 +121,7 @@ void add_cupboards(scene::Model& model) {
     add_front(model, {east - float(2 - i) * unit, upper, foot}, unit, head - foot, false);
 }
 
-/// What of a mesh does not lie within a box.
+/// The part of a mesh that does not lie within a box.
 Mesh outside(Mesh mesh, const Bounds& box) {
   std::vector<std::uint32_t> kept;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -135,7 +135,8 @@ Mesh outside(Mesh mesh, const Bounds& box) {
   return mesh;
 }
 
-/// With an opening for the hob: two layers that all but touch would show through one another in mirrors.
+/// Adds the worktop with an opening for the hob: two layers that all but touch would show through one another
+/// in mirrors.
 void add_worktop(scene::Model& model) {
   constexpr float thick = 0.04f, high = worktop_height_m;
   const Bounds hob_box{{hob_x_m - 0.29f, -0.56f, high - 0.01f}, {hob_x_m + 0.29f, -0.07f, hob_height_m}};

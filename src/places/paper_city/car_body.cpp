@@ -172,7 +172,8 @@ class BodyMesher {
     triangle(surface, a, b, c), triangle(surface, a, c, d);
   }
 
-  /// From the lower edge (an arch's too) straight in to the middle: floor and wheel houses, black.
+  /// Adds the underside from the lower edge (an arch's too) straight in to the middle: floor and wheel
+  /// houses, black.
   void add_underside(std::size_t i, float v0, float v1) {
     const Point a = point(u_[i], v0), b = point(u_[i + 1], v1);
     const glm::vec3 c(b.position.x, 0.0f, b.position.z), d(a.position.x, 0.0f, a.position.z);

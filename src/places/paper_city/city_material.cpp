@@ -19,7 +19,7 @@ struct Sheet {
   std::function<SurfacePictures(std::uint32_t seed)> paint;
 };
 
-/// In the order of `first_texture` below.
+/// All sheets in the order of `first_texture` below.
 std::vector<Sheet> all_sheets() {
   std::vector<Sheet> sheets;
   for (const FacadeStyle& style : facade_styles())

@@ -38,7 +38,7 @@ Mesh skin(int rings, int sides, const std::function<Section(float)>& section) {
   return mesh;
 }
 
-/// Of the whale's trunk: how far along, how high its middle, half its width and height; metres.
+/// A section of the whale's trunk: how far along, how high its middle, half its width and height; metres.
 struct TrunkSection {
   float x, z, half_width, half_height;
 };

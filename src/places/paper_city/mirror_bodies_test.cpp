@@ -10,7 +10,7 @@
 namespace parvis::city {
 namespace {
 
-/// Of what a closed mesh encloses; negative where it is inside out.
+/// Volume that a closed mesh encloses; negative where it is inside out.
 double volume_m3(const Mesh& mesh) {
   double volume = 0.0;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {

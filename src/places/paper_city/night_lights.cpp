@@ -27,7 +27,7 @@ constexpr std::array<glm::vec3, window_tints> window_light{
     {{0.05f, 0.031f, 0.0135f}, {0.032f, 0.0155f, 0.0055f}, {0.036f, 0.0325f, 0.0265f}}};
 constexpr glm::vec3 shop_light{0.036f, 0.0265f, 0.0165f};
 
-/// What one side of a house shows by night; shared by the model and by the lamps before its shops.
+/// A lit cell of one side of a house by night; shared by the model and by the lamps before its shops.
 struct LitCell {
   const Building* building;
   const Face* face;
@@ -91,7 +91,7 @@ std::vector<LitCell> lit_cells(const std::vector<Building>& buildings, std::uint
   return cells;
 }
 
-/// Of sheet `sheet` in tint `tint`; the ground floors' sheet has shops, and rooms behind.
+/// Material of sheet `sheet` in tint `tint`; the ground floors' sheet has shops, and rooms behind.
 int material_of(int sheet, int tint) { return sheet * window_tints + tint; }
 
 void add_materials(scene::Model& model, std::uint64_t seed) {

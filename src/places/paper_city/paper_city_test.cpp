@@ -36,7 +36,7 @@ TEST(PaperCity, LeavesNothingBehindWhereItCannotWrite) {
   fs::remove_all(folder);
 }
 
-/// What is written for an attribute; nothing where it is absent.
+/// The text written for an attribute; empty where it is absent.
 std::string written(const scene::ScriptNode& node, const std::string& name) {
   for (const scene::ScriptAttribute& attribute : node.attributes)
     if (attribute.name == name) return attribute.value;

@@ -20,7 +20,7 @@ void add_squares(Mesh& mesh, int rows, int columns) {
                            at(row + 1, column + 1), at(row + 1, column)});
 }
 
-/// What lies between neighbours; at an end, between it and its one neighbour.
+/// The slope between neighbours; at an end, between it and its one neighbour.
 glm::vec2 slope(const Outline& outline, std::size_t i) {
   const glm::vec2 along = outline[std::min(i + 1, outline.size() - 1)] - outline[i == 0 ? 0 : i - 1];
   return along / std::max(glm::length(along), 1e-9f);

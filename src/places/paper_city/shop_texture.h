@@ -17,8 +17,8 @@ inline constexpr int shop_strips = 3, house_strip = shop_strips, ground_floor_st
 /// Texture coordinates v of a strip: (bottom, top).
 glm::vec2 ground_floor_strip(int strip);
 
-/// What stands in a shop's window: rows of things on shelves, of colours mixed with `tint`, and light from
-/// lamps above.
+/// Paints the display in a shop's window: rows of things on shelves, of colours mixed with `tint`, and light
+/// from lamps above.
 void paint_shop_display(SurfaceCanvas& canvas, const Rect& glass, glm::vec3 tint, Random& random);
 
 /// The painted sheet of all strips.

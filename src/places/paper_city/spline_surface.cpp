@@ -29,7 +29,7 @@ SplineSurface::SplineSurface(int columns, int rows, std::vector<glm::vec3> contr
   assert(points_.size() == std::size_t(columns) * std::size_t(rows) && columns >= 4 && rows >= 4);
 }
 
-/// Beyond the planes of symmetry lies the other half; beyond the free edge the net goes straight on.
+/// The control net continues beyond the planes of symmetry as the other half, beyond the free edge straight.
 glm::vec3 SplineSurface::control_point(int column, int row) const {
   if (column < 0) return mirrored(control_point(-column, row));
   if (column >= columns_) return mirrored(control_point(2 * (columns_ - 1) - column, row));

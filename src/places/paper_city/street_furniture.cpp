@@ -47,7 +47,8 @@ void add_pit(CityMesh& mesh, glm::vec3 foot) {
             foot + lift - x + y, {0.0f, 0.35f}, {0.35f, 0.0f});
 }
 
-/// Along both pavements of the two wide roads, outward from the main crossing, 25 m apart and staggered.
+/// Lamps stand along both pavements of the two wide roads, outward from the main crossing, 25 m apart and
+/// staggered.
 glm::vec3 lamp_place(std::size_t i) {
   const glm::vec2 centre = main_crossing();
   const std::size_t ring = i / 8;
@@ -58,7 +59,7 @@ glm::vec3 lamp_place(std::size_t i) {
   return {centre + offset, kerb_m};
 }
 
-/// On the rounded corners of the main crossing.
+/// Bollards stand on the rounded corners of the main crossing.
 glm::vec3 bollard_place(std::size_t i) {
   const glm::vec2 quadrant(i % 4 == 0 || i % 4 == 3 ? 1.0f : -1.0f, i % 4 < 2 ? 1.0f : -1.0f);
   const std::size_t number = i / 4;

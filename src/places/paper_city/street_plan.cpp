@@ -42,7 +42,7 @@ Block make_block(const std::vector<Road>& roads, int column, int row) {
   return block;
 }
 
-/// At corner `side`, along that side of the block.
+/// The frame at corner `side`, along that side of the block.
 Frame side_frame(const Block& block, int side) {
   constexpr std::array<glm::vec3, 4> directions{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}};
   const glm::vec2 corner = block.corner(side);

@@ -44,7 +44,7 @@ void paint_net(SurfaceCanvas& canvas, const Rect& rect, Random& random) {
   });
 }
 
-/// Of the room behind: a lighter ceiling, and the back wall's edge, each room from its own side.
+/// Paints the room behind: a lighter ceiling, and the back wall's edge, each room from its own side.
 void paint_room(SurfaceCanvas& canvas, const Rect& rect, Random& random) {
   const float ceiling = rect.y1 - random.uniform(0.12f, 0.3f) * rect.height();
   const float corner = rect.x0 + random.uniform(0.15f, 0.85f) * rect.width();
