@@ -172,6 +172,11 @@ constexpr Key keys[]{
     {"relight_shipped_sky_frames_to_2_percent", "frames", maximum(30.0), "the same", {{"relight_shipped_sky_frames_to_2_percent_of_the_old_light"}}},
     {"relight_shipped_drag_worst_frame_rmse_percent", "%", maximum(15.0), "a crown that is dragged", {{"relight_shipped_drag_rmse_percent_of_the_light_before"}}},
     {"relight_shipped_drag_frame_ms", "ms", maximum(50.0), "the same", {{"relight_shipped_drag_frame_ms_of_all_rays"}}},
+    // noise
+    {"cnossos_cases_passed", "cases", minimum(28.0), "of 28 of ISO/TR 17534-4: every octave, with and without lateral paths, within 0.1 dB", {{"cnossos_cases_passed_in_warm_air"}}},
+    {"cnossos_largest_difference_db", "dB", {}, "the same, any octave of any case"},
+    {"air_absorption_matches", "figures", minimum(48.0), "of 48 of ISO 9613-2's table 2, within one printed digit"},
+    {"road_emission_checks", "checks", minimum(5.0), "of 5 of the Commission's library, 2015 coefficients, within 0.01 dB"},
     // vegetation
     {"vegetation_fps_200_trees_1m_triangles", "fps", minimum(10.0), "the slowest view, 640x360, a sun that moves", {{"vegetation_fps_real_geometry_control"}}},
     {"vegetation_fps_while_shadow_maps_are_kept", "fps", {}, "the same view under a sun that stays"},

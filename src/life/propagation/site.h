@@ -1,0 +1,118 @@
+// What sound meets between source and receiver: ground, roofs and walls, and the paths that lead past them.
+// All paths lie in vertical planes, unfolded where they turn, as CNOSSOS-EU has them.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "life/propagation/path_attenuation.h"
+
+namespace parvis::propagation {
+
+/// The ground and the roofs over it, in plan.
+class Terrain {
+ public:
+  virtual ~Terrain() = default;
+  /// Height of the ground, metres.
+  virtual double ground_z(glm::dvec2 place) const = 0;
+  /// G of the ground: 0 is hard, 1 is porous.
+  virtual double ground_factor(glm::dvec2 place) const = 0;
+  /// Height of the roof over a place, metres; nothing where no building stands.
+  virtual std::optional<double> roof_z(glm::dvec2 place) const = 0;
+  /// Adds the distances from `from`, metres, at which slope or factor change on the way to `to`, in any
+  /// order.
+  virtual void add_breaks(glm::dvec2 from, glm::dvec2 to, std::vector<double>& distances_m) const = 0;
+};
+
+/// An upright wall: a facade, or a thin wall that stands alone. Its foot is the ground.
+struct Wall {
+  glm::dvec2 a{0.0}, b{0.0};          ///< ends in plan, metres
+  double top_a = 0.0, top_b = 0.0;    ///< absolute heights of its upper edge at the ends
+  std::optional<Octaves> absorption;  ///< α of its surface; nothing: reflections are not counted
+};
+
+/// Where the sound comes from or is heard: plan position and absolute height, metres.
+using Place = glm::dvec3;
+
+/// A path that is reflected in turn by walls: their indices, from the source to the receiver.
+using WallSequence = std::vector<int>;
+
+/// Attenuations of one pair of places summed over paths: levels at the receiver for a sound power level of
+/// 0 dB, `silence_db` where no path leads.
+struct Transfer {
+  Octaves homogeneous_db{}, favourable_db{};
+
+  /// The level for a long time in which conditions are favourable for a fraction of it.
+  Octaves long_term_db(double favourable_fraction) const;
+};
+
+/// Which paths are followed.
+struct PathChoice {
+  int reflections = 1;          ///< highest order; 0 for none
+  bool is_lateral = true;       ///< also round the ends of what stands in the way
+  int directions = 180;         ///< in which walls are sought that reflect toward the receiver
+  double max_length_m = 800.0;  ///< of a reflected or lateral path
+};
+
+/// Walls on a terrain, which must outlive the site. May be asked from several threads.
+class Site {
+ public:
+  Site(const Terrain& terrain, std::vector<Wall> walls);
+  ~Site();
+  Site(Site&&) noexcept;
+
+  /// The walls in the order in which they were given.
+  const std::vector<Wall>& walls() const { return walls_; }
+  /// The ground below.
+  const Terrain& terrain() const { return terrain_; }
+
+  /// The vertical cut along a line of plan points with a source at its begin and a receiver at its end.
+  Profile profile(std::span<const glm::dvec2> line, double source_z, double receiver_z) const;
+
+  /// Corners in plan of the path on one side round what stands higher than the ray: the convex hull from
+  /// source to receiver of walls, joined at their ends, that stand in the way. Empty where none does, where
+  /// the path would be longer than `max_length_m`, and where source or receiver stand within the hull, as in
+  /// a court.
+  std::vector<glm::dvec2> corners_around(const Place& source, const Place& receiver, Condition condition,
+                                         bool is_left, double max_length_m) const;
+
+  /// Plan points of the path that the walls reflect, source and receiver included (image sources); empty
+  /// where a point of reflection would lie beside its wall or on its back.
+  std::vector<glm::dvec2> reflected_line(const Place& source, const Place& receiver,
+                                         std::span<const int> walls) const;
+
+  /// Sequences of walls, to the highest order, that rays from a receiver find. The walls reflect all rays
+  /// that reach them in plan, whatever their heights.
+  std::vector<WallSequence> sequences_seen_from(glm::dvec2 receiver, const PathChoice& choice) const;
+
+  /// Attenuation of the path over all in the straight line.
+  Octaves over(const Place& source, const Place& receiver, const Octaves& air_db_per_m,
+               Condition condition) const;
+  /// Attenuation round plan corners.
+  Octaves around(const Place& source, const Place& receiver, std::span<const glm::dvec2> corners,
+                 const Octaves& air_db_per_m, Condition condition) const;
+  /// Attenuation by way of walls; nothing where the ray passes above one of them or below the ground.
+  std::optional<Octaves> reflected(const Place& source, const Place& receiver, std::span<const int> walls,
+                                   const Octaves& air_db_per_m, Condition condition) const;
+
+  /// All paths together; `sequences`: those seen from the receiver.
+  Transfer transfer(const Place& source, const Place& receiver, std::span<const WallSequence> sequences,
+                    const PathChoice& choice, const Octaves& air_db_per_m) const;
+
+ private:
+  class Rays;
+  struct Crossing;
+  std::vector<Crossing> crossings(glm::dvec2 from, glm::dvec2 to) const;
+  void add_leg(glm::dvec2 from, glm::dvec2 to, double offset_m, Profile& profile) const;
+
+  const Terrain& terrain_;
+  std::vector<Wall> walls_;
+  std::vector<std::array<std::vector<int>, 2>> neighbours_;  // of each wall: those that share its end a, b
+  std::unique_ptr<Rays> rays_;
+};
+
+}  // namespace parvis::propagation
