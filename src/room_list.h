@@ -25,7 +25,8 @@ class House;
   ROOM(light)                                                                              \
   ROOM(kerbside) /* after roads */                                                         \
   ROOM(action)                                                                             \
-  ROOM(shadows)       /* after light, whose shadows it replaces */                         \
+  ROOM(shadows) /* after light, whose shadows it replaces */                               \
+  ROOM(realism)                                                                            \
   ROOM(lamps)         /* after shadows: its light is laid over that one */                 \
   ROOM(bounced_light) /* likewise; before what is baked in its light */                    \
   ROOM(probes)                                                                             \

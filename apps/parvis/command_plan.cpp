@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 
 #include "base/files.h"
@@ -15,6 +16,7 @@
 #include "plan_council.h"
 #include "planning/design/design_file.h"
 #include "planning/design/difference.h"
+#include "planning/design/own_kind.h"
 #include "planning/design/scene_surfaces.h"
 #include "planning/plan_drawing/plan_files.h"
 #include "scene_arguments.h"
@@ -29,6 +31,8 @@ struct Arguments {
   std::string centre;
   std::string design;
   std::vector<std::string> commands;
+  std::vector<std::filesystem::path> kind_files;  ///< models that become kinds
+  std::string kind_unit;
   std::filesystem::path command_file, import_json, output, json;
   std::string compared;  ///< a design that the scene's is compared with
   CouncilOptions council;
@@ -92,6 +96,20 @@ Result<std::vector<std::pair<std::string, int>>> lines_of(const std::filesystem:
   return lines;
 }
 
+/// Models of --kind.
+Status take_kinds(const Arguments& arguments, const house::Play& play, design::Session& session) {
+  const std::map<std::string, double> units{
+      {"", 0.0}, {"m", design::metre}, {"cm", design::centimetre}, {"mm", design::millimetre}};
+  for (const std::filesystem::path& file : arguments.kind_files) {
+    const Result<design::OwnKind> kind = design::import_kind(play.house->get<formats::Readers>(), play.scene,
+                                                             file, units.at(arguments.kind_unit));
+    if (!kind) return kind.errors();
+    if (Status status = session.run(design::Command(kind->command)); !status) return status;
+    fmt::print("{}\n", kind->note);
+  }
+  return Done{};
+}
+
 Status run_commands(const Arguments& arguments, design::Session& session) {
   if (!arguments.command_file.empty()) {
     const auto lines = lines_of(arguments.command_file);
@@ -149,7 +167,8 @@ Status write_council_of(const Arguments& arguments, const design::Session& sessi
 }
 
 bool asks_for_nothing(const Arguments& a) {
-  return a.commands.empty() && a.compared.empty() && !a.lists_objects && !a.lists_kinds && !a.keeps_journal &&
+  return a.commands.empty() && a.kind_files.empty() && a.compared.empty() && !a.lists_objects &&
+         !a.lists_kinds && !a.keeps_journal &&
          std::ranges::all_of(std::array{&a.command_file, &a.import_json, &a.json, &a.output, &a.pdf, &a.dxf,
                                         &a.csv, &a.council.file},
                              [](const std::filesystem::path* file) { return file->empty(); });
@@ -173,6 +192,7 @@ Status work_on(const Arguments& arguments, house::Play& play, house::Stage* stag
     if (Status status = design::read_json(*text, arguments.import_json.string(), *session); !status)
       return status;
   }
+  if (Status status = take_kinds(arguments, play, *session); !status) return status;
   if (Status status = run_commands(arguments, *session); !status) return status;
   if (arguments.lists_objects) list_objects(*session);
   if (!arguments.compared.empty())
@@ -224,6 +244,12 @@ void add_plan(CLI::App& app, Chosen& chosen) {
       ->add_option("--do", arguments->commands,
                    "A command, as \"insert bench_wood 12.40,3.05 heading 90\"; may repeat")
       ->allow_extra_args(false);
+  command
+      ->add_option("--kind", arguments->kind_files,
+                   "A model file that becomes a kind of this design, before the commands; may repeat")
+      ->allow_extra_args(false);
+  command->add_option("--kind-unit", arguments->kind_unit, "In which it was drawn (default: metres)")
+      ->check(CLI::IsMember({"m", "cm", "mm"}));
   command->add_option("--file", arguments->command_file,
                       "A file with a command on each line; # begins a comment");
   command->add_option("--import", arguments->import_json,

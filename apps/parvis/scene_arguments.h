@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,7 @@ struct SceneArguments {
   std::string size = "1280x720";
   double time_s = 0.0;
   std::string method;
+  std::optional<double> realism;       ///< none: the scene's own
   std::vector<std::string> scenarios;  ///< none: as the scene begins
   std::vector<std::string> presses;    ///< "KEY@SECONDS"
   std::string tour;
@@ -79,6 +81,12 @@ struct SceneArguments {
     command.add_option("--size", size, "Width x height in pixels")->capture_default_str();
     command.add_option("--press", presses,
                        "A key that a person presses so many seconds after: KEY@SECONDS; may repeat");
+    command
+        .add_option(
+            "--realism", realism,
+            "From a sketch (0) over a white model (0.25), plain colours (0.5) and materials (0.75) to "
+            "everything (1)")
+        ->check(CLI::Range(0.0, 1.0));
     command.add_option("--reflection", method, "Method of reflection in place of the scene's own");
   }
 
@@ -96,6 +104,10 @@ struct SceneArguments {
     if (!method.empty())
       if (const Status status = live.hold(live.unique_node("reflection"), "method", method); !status)
         return error("--reflection: {}", status.errors().front().message);
+    if (realism)
+      if (const Status status = live.hold(live.unique_node("realism"), "level", fmt::format("{}", *realism));
+          !status)
+        return error("--realism: {}", status.errors().front().message);
     if (!scenarios.empty())
       if (Status status = live.choose(play->scene, scenarios.front()); !status) return status.errors();
     if (Status status = plan_presses(play->actions()); !status) return status.errors();

@@ -39,6 +39,9 @@ Input::Input(GLFWwindow* window, Visit& visit, Panel& panel, Planning& planning)
       window, [](GLFWwindow* in, int button, int action, int) { input_of(in).on_button(button, action); });
   glfwSetCursorPosCallback(window, [](GLFWwindow* in, double x, double y) { input_of(in).on_cursor(x, y); });
   glfwSetScrollCallback(window, [](GLFWwindow* in, double, double steps) { input_of(in).on_wheel(steps); });
+  glfwSetDropCallback(window, [](GLFWwindow* in, int count, const char** files) {
+    for (int i = 0; i < count; ++i) input_of(in).planning_.take_file(files[i]);
+  });
 }
 
 Input::~Input() {
@@ -47,6 +50,7 @@ Input::~Input() {
   glfwSetMouseButtonCallback(window_, nullptr);
   glfwSetCursorPosCallback(window_, nullptr);
   glfwSetScrollCallback(window_, nullptr);
+  glfwSetDropCallback(window_, nullptr);
 }
 
 /// False where nothing in the scene waits for the key.
@@ -254,6 +258,10 @@ void Input::press(int key) {
       break;
     case GLFW_KEY_P:
       visit_.take_picture();
+      break;
+    case GLFW_KEY_PAGE_UP:
+    case GLFW_KEY_PAGE_DOWN:
+      visit_.step_realism(key == GLFW_KEY_PAGE_UP ? 1 : -1);
       break;
     default:
       break;

@@ -58,7 +58,8 @@ GLuint KindPictures::of(const std::string& kind) const {
 
 Status KindPictures::draw(const design::Kind& kind, Image8& picture) {
   const std::vector<design::Kind> kinds = design::kinds_of(scene_);
-  if (!stage_) {
+  if (!stage_ || shown_kinds_ != kinds.size()) {
+    shown_kinds_ = kinds.size();
     Result<scene::Scene> scene = scene_of(kinds, scene_, house_.get<scene::NodeRegistry>());
     if (!scene) return scene.errors();
     Result<std::unique_ptr<house::Stage>> stage =

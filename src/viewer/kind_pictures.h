@@ -32,6 +32,7 @@ class KindPictures {
   KeptParts kept_;
   std::map<std::string, gl::Texture> textures_;
   std::unique_ptr<house::Stage> stage_;  ///< of all kinds beside each other
+  std::size_t shown_kinds_ = 0;          ///< how many of them
 };
 
 }  // namespace parvis::viewer

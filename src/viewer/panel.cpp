@@ -10,6 +10,7 @@
 #include "graphics/light/day_light_time.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
+#include "scene/data/realism.h"
 #include "viewer/keys.h"
 
 namespace parvis::viewer {
@@ -187,6 +188,11 @@ void Panel::draw_light(Visit& visit) {
   double exposure = visit.exposure();
   if (rows_.drag("Exposure", &exposure, 1, {0.005f, "%.3f"}, 0.01, 100, "how bright the picture is"))
     visit.set_exposure(exposure);
+
+  double realism = double(scene.data<scene::Realism>().level);
+  if (rows_.drag("Realism", &realism, 1, {0.005f, "%.2f"}, 0, 1,
+                 "0 sketch, 0.25 white model, 0.5 plain colours, 0.75 materials, 1 everything"))
+    visit.set_realism(realism);
 
   const methods::Registry& registry = visit.stage().house().get<methods::Registry>();
   std::vector<std::string> names = registry.names();

@@ -9,6 +9,7 @@
 
 #include "graphics/reference/camera_ray.h"
 #include "planning/design/design_file.h"
+#include "planning/design/own_kind.h"
 #include "planning/plan_drawing/scene_plan.h"
 
 namespace parvis::viewer {
@@ -162,6 +163,18 @@ std::vector<design::Difference> Planning::differences() const {
                              desk_->session.objects());
 }
 
+void Planning::take_file(const std::filesystem::path& file) {
+  if (!is_on_) turn_on(true);
+  if (!desk_) return;
+  const Result<design::OwnKind> kind =
+      design::import_kind(visit_.stage().house().get<formats::Readers>(), visit_.scene(), file);
+  if (!kind) return visit_.notice_error(to_string(kind.errors()));
+  if (!tell(desk_->session.run(design::Command(kind->command)))) return;
+  visit_.notice(kind->note);
+  shows_catalogue = true;
+  desk_->tool.choose_kind(kind->command.name);
+}
+
 bool Planning::tell(const Status& status) {
   if (!status) visit_.notice_error(to_string(status.errors()));
   return status.ok();
@@ -234,13 +247,28 @@ bool Planning::stand_at(const planner::Pointer& pointer) {
   return true;
 }
 
+/// Views are cameras of the design: they are saved with it, and commands may look from them.
+std::string Planning::name_of_view(int number) const {
+  return fmt::format("{}_view_{}", desk_->session.name(), number);
+}
+
 void Planning::keep_view(int number) {
-  kept_views_[number] = visit_.camera();
-  visit_.notice(fmt::format("{} {}", word("saved"), number));
+  if (desk_ &&
+      tell(desk_->session.run(design::Command(design::view_of(visit_.camera(), name_of_view(number))))))
+    visit_.notice(fmt::format("{} {}", word("saved"), number));
 }
 
 void Planning::go_to_view(int number) {
-  if (const auto kept = kept_views_.find(number); kept != kept_views_.end()) visit_.fly_to(kept->second);
+  if (!desk_) return;
+  if (const scene::NamedCamera* kept = visit_.scene().find_camera(name_of_view(number)))
+    visit_.fly_to(kept->camera);
+}
+
+std::vector<int> Planning::kept_views() const {
+  std::vector<int> numbers;
+  for (int number = 1; desk_ && number <= 9; ++number)
+    if (visit_.live().find(name_of_view(number))) numbers.push_back(number);
+  return numbers;
 }
 
 void Planning::frame_selection() {

@@ -65,6 +65,8 @@ class Planning {
 
   /// Runs a command of the session; an error becomes a notice.
   bool run(const std::string& command);
+  /// Makes a kind of a model file and takes it in hand.
+  void take_file(const std::filesystem::path& file);
   /// Makes an error a notice; false: there was one.
   bool tell(const Status& status);
   /// Takes the last step back.
@@ -82,10 +84,12 @@ class Planning {
   bool waits_for_balcony() const { return waits_for_balcony_; }
   /// Stands at a wall that the pointer shows, looking away from it. False: it shows none.
   bool stand_at(const planner::Pointer& pointer);
-  /// Keeps the present view under a number 1 to 9.
+  /// Keeps the present view under a number 1 to 9, in the design.
   void keep_view(int number);
   /// Flies to the view that was kept under a number.
   void go_to_view(int number);
+  /// Numbers of the views that are kept, ascending.
+  std::vector<int> kept_views() const;
   /// Frames what is selected.
   void frame_selection();
 
@@ -107,6 +111,7 @@ class Planning {
         : session(std::move(opened)), tool(play.scene, play.live(), session, surfaces) {}
   };
   bool open(const std::string& design);
+  std::string name_of_view(int number) const;
   const std::vector<planner::PlanSegment>& plan_lines();
 
   Visit& visit_;
@@ -116,7 +121,6 @@ class Planning {
   std::unique_ptr<Desk> desk_;
   std::optional<Camera> street_view_;  ///< to which one comes back
   std::vector<planner::PlanSegment> plan_lines_;
-  std::map<int, Camera> kept_views_;
   std::string saved_at_, compared_;
   ComparedView compared_view_ = ComparedView::colours;
   float split_ = 0.5f;

@@ -157,6 +157,15 @@ void PlanningBars::draw_views(float width) {
     planning_.look(PlanningView::street);
   ImGui::SameLine();
   if (button("Balcony", "6", planning_.waits_for_balcony(), side)) planning_.look(PlanningView::balcony);
+  const std::vector<int> kept = planning_.kept_views();
+  for (const int number : kept) {
+    ImGui::SameLine();
+    if (button(fmt::format("{}", number).c_str(), fmt::format("Ctrl+{}", number).c_str(), false, 0.0f))
+      planning_.go_to_view(number);
+  }
+  ImGui::SameLine();
+  const int next = kept.empty() ? 1 : kept.back() + 1;
+  if (next <= 9 && button("+", "Keep this view", false, 0.0f)) planning_.keep_view(next);
   for (const std::string& design : planning_.designs()) {
     ImGui::SameLine(0.0f, (design == planning_.designs().front() ? 18.0f : 6.0f) * imgui_.scale());
     const bool is_open = planning_.session() && planning_.session()->name() == design;

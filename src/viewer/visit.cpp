@@ -6,6 +6,7 @@
 #include "base/image_io.h"
 #include "house/stage/probe.h"
 #include "reflections/methods/settings.h"
+#include "scene/data/realism.h"
 #include "viewer/screenshots.h"
 
 namespace parvis::viewer {
@@ -158,6 +159,18 @@ double Visit::exposure() const {
 }
 
 void Visit::set_exposure(double exposure) { set("exposure", "value", exposure); }
+
+void Visit::set_realism(double level) { set("realism", "level", std::clamp(level, 0.0, 1.0)); }
+
+void Visit::step_realism(int steps) {
+  const double last = double(realism_names.size() - 1);
+  const double now = last * double(scene().data<scene::Realism>().level);
+  constexpr double rounding = 1e-3;
+  const double next =
+      std::clamp(steps > 0 ? std::floor(now + rounding) + 1.0 : std::ceil(now - rounding) - 1.0, 0.0, last);
+  set_realism(next / last);
+  notice(realism_names[std::size_t(next)]);
+}
 
 void Visit::set_reflection(const std::string& method) { set("reflection", "method", method); }
 

@@ -2,6 +2,7 @@
 // behind keys and panel, independent of the window.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <unordered_map>
@@ -11,6 +12,10 @@
 #include "viewer/navigation.h"
 
 namespace parvis::viewer {
+
+/// The places from a sketch to a photograph that have names, evenly spaced.
+inline constexpr std::array realism_names{"sketch", "white model", "plain colours", "materials",
+                                          "everything"};
 
 /// A message that is displayed for a while.
 struct Notice {
@@ -86,6 +91,10 @@ class Visit {
   double exposure() const;
   /// Sets it.
   void set_exposure(double exposure);
+  /// Sets the picture's place between a sketch (0) and a photograph (1): scene::Realism.
+  void set_realism(double level);
+  /// Goes to the next of the five places that have names, or the one before, and says which.
+  void step_realism(int steps);
   /// Selects a reflection method by its name in the registry.
   void set_reflection(const std::string& method);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/colour.h"
+#include "scene/data/realism.h"
 
 namespace parvis::reference {
 
@@ -77,7 +78,8 @@ PixelTracer::PixelTracer(const RayScene& rays, const scene::Scene& scene, const 
     : rays_(rays),
       light_(rays, scene, sky, options.drawn_light),
       mirror_bounces_(options.mirror_bounces),
-      mirrors_see_themselves_(options.mirrors_see_themselves) {}
+      mirrors_see_themselves_(options.mirrors_see_themselves),
+      realism_(shading::realism_at(scene.data<scene::Realism>().level)) {}
 
 vec3 PixelTracer::radiance(const Cone& cone, LobePoints& lobe_points, std::uint64_t& ray_count,
                            bool& is_mirror) const {
@@ -96,7 +98,8 @@ vec3 PixelTracer::followed(Cone cone, int bounce, int hidden_object, LobePoints&
     const std::optional<Hit> hit = is_known ? first.hit : nearest_hit_but(cone.ray, hidden_object);
     if (!hit) return sum + left * light_.behind_all(cone.ray.direction, bounce == 0);
     const Cone seen = widened(cone, hit->distance_m);
-    const ShadingPoint point = is_known ? first.point : shading_point(*hit, cone.ray.direction, seen.width_m);
+    const ShadingPoint point =
+        is_known ? first.point : shading_point(*hit, cone.ray.direction, seen.width_m, realism_);
     const bool blends = hit->place->material->alpha_mode == scene::Alpha::blend;
     const float alpha = blends && layer + 1 < max_blended_layers ? point.alpha : 1.0f;
     if (is_mirror && layer == 0) *is_mirror = hit->place->is_mirror;
@@ -214,7 +217,7 @@ void PixelTracer::look_ahead(std::span<const MirrorRay> mirror_rays, std::span<F
     first[i].is_known = true, first[i].hit = hit;
     if (!hit) continue;
     const Cone seen = widened(mirror_rays[i].cone, hit->distance_m);
-    first[i].point = shading_point(*hit, seen.ray.direction, seen.width_m);
+    first[i].point = shading_point(*hit, seen.ray.direction, seen.width_m, realism_);
     const SunRay sun = light_.ray_to_sun(first[i].point, *hit);
     first[i].sun = sun.let_in;
     if (sun.ray) to_sun[sun_rays] = *sun.ray, lit[sun_rays++] = &first[i];
@@ -226,9 +229,10 @@ void PixelTracer::look_ahead(std::span<const MirrorRay> mirror_rays, std::span<F
 }
 
 /// The mirror that a drawn pixel shows, with its sharp share.
-PixelTracer::MirrorPoint PixelTracer::mirror_in(const MirrorPixel& pixel, const Cone& cone, const Hit& hit) {
+PixelTracer::MirrorPoint PixelTracer::mirror_in(const MirrorPixel& pixel, const Cone& cone,
+                                                const Hit& hit) const {
   const Cone seen = widened(cone, hit.distance_m);
-  MirrorPoint mirror{shading_point(hit, cone.ray.direction, seen.width_m), hit, seen, nullptr};
+  MirrorPoint mirror{shading_point(hit, cone.ray.direction, seen.width_m, realism_), hit, seen, nullptr};
   const Surface& s = mirror.point.surface;
   const float n_dot_v = std::clamp(-glm::dot(s.normal, cone.ray.direction), 1e-4f, 1.0f);
   const float base = luminance(base_reflectance(s, n_dot_v)), coat = fresnel_of_coat(s, n_dot_v);

@@ -50,13 +50,14 @@ class PixelTracer {
   std::optional<Hit> nearest_hit_but(Ray ray, int hidden_object) const;
   int hidden_from(const Hit& hit) const { return mirrors_see_themselves_ ? -1 : hit.place->object; }
 
-  static MirrorPoint mirror_in(const MirrorPixel& pixel, const Cone& cone, const Hit& hit);
+  MirrorPoint mirror_in(const MirrorPixel& pixel, const Cone& cone, const Hit& hit) const;
   static Cone mirrored_cone(const MirrorPoint& mirror, glm::vec3 direction);
 
   const RayScene& rays_;
   SurfaceLight light_;
   int mirror_bounces_;
   bool mirrors_see_themselves_;
+  glm::vec4 realism_;  ///< shading::realism_at
 };
 
 }  // namespace parvis::reference

@@ -84,10 +84,6 @@ shading::TextureFrame frame_of(const Corners& corners, const TexturePlace& textu
           texture.corners[1] - texture.corners[0], texture.corners[2] - texture.corners[0]};
 }
 
-}  // namespace
-
-namespace {
-
 /// Where a room's own functions say what the surface is like.
 ShadingPoint traced_point(const Hit& hit, vec3 direction, float width_m) {
   const scene::TracedHit seen = traced_hit(*hit.place, hit.triangle, {hit.u, hit.v}, -direction, width_m);
@@ -106,10 +102,8 @@ ShadingPoint traced_point(const Hit& hit, vec3 direction, float width_m) {
   return point;
 }
 
-}  // namespace
-
-ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
-  if (hit.place->surface) return traced_point(hit, direction, width_m);
+/// Where a material says what it is like; `detail_share`: of its picture, else of that picture's mean.
+ShadingPoint material_point(const Hit& hit, vec3 direction, float width_m, float detail_share) {
   const PlacedPart& place = *hit.place;
   const scene::Material& material = *place.material;
   const Corners corners = corners_of(hit);
@@ -155,6 +149,10 @@ ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
   using scene::OwnMappings;
   const vec4 white(1.0f);
   vec4 base = sampled(material.base_colour_texture, white, base_place);
+  if (detail_share < 1.0f && material.base_colour_texture != scene::no_index) {
+    const vec3 mean(mips_of(material.base_colour_texture).mean());
+    base = vec4(glm::mix(mean, vec3(base), detail_share), base.w);
+  }
   if (!place.mesh->colours.empty()) base *= interpolated(hit, place.mesh->colours);
   vec4 detail = sampled(material.surface_texture, white, place_of(&OwnMappings::surface));
   if (material.occlusion_texture != scene::no_index)
@@ -180,6 +178,16 @@ ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m) {
       vec4(material.metallic, material.roughness, material.clear_coat, material.clear_coat_roughness),
       material.translucency);
   if (material.refracts()) s = shading::glass_surface(s, material.ior);
+  return point;
+}
+
+}  // namespace
+
+ShadingPoint shading_point(const Hit& hit, vec3 direction, float width_m, vec4 realism) {
+  ShadingPoint point = hit.place->surface ? traced_point(hit, direction, width_m)
+                                          : material_point(hit, direction, width_m, realism.y);
+  if (!shading::shows_everything(realism))
+    point.surface = shading::simplified(point.surface, point.geometric_normal, realism);
   return point;
 }
 

@@ -3,7 +3,7 @@
 
 #include "graphics/reference/ray_scene.h"
 #include "graphics/reference/relief.h"
-#include "graphics/shading/surface.h"
+#include "graphics/shading/realism.h"
 
 namespace parvis::reference {
 
@@ -19,7 +19,9 @@ struct ShadingPoint {
   Relief relief;
 };
 
-/// Looks the material's textures up at a hit of a ray in `direction` that sees `width_m` of the surface.
-ShadingPoint shading_point(const Hit& hit, glm::vec3 direction, float width_m);
+/// Looks the material's textures up at a hit of a ray in `direction` that sees `width_m` of the surface, and
+/// simplifies it (`realism`: shading::realism_at).
+ShadingPoint shading_point(const Hit& hit, glm::vec3 direction, float width_m,
+                           glm::vec4 realism = shading::realism_at(1.0f));
 
 }  // namespace parvis::reference

@@ -25,4 +25,5 @@ UNIFORM_BLOCK(Frame) {
   vec4 frame_lamp_cells;      // xy: cells of the grid; z: texel at which lamps begin
   vec4 frame_bounced_origin;  // of the grid of bounced light; w: lift
   vec4 frame_bounced_size;    // w: layers; 0: there is none
+  vec4 frame_realism;         // realism_at
 };

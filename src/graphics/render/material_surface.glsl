@@ -67,6 +67,8 @@ vec4 base_at(vec2 texture_uv, vec2 along_x, vec2 along_y) {
   vec4 base = texture(base_colour_texture, texture_uv);
 #else
   vec4 base = base_colour_at(texture_uv, along_x, along_y);
+  if (frame_realism.y < 1.0f)  // plain: the texture's mean
+    base.rgb = mix(textureLod(base_colour_texture, vec2(0.5f), 16.0f).rgb, base.rgb, frame_realism.y);
 #endif
 #ifdef HAS_COLOURS
   base *= vertex_colour;

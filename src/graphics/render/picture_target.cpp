@@ -1,5 +1,7 @@
 #include "graphics/render/picture_target.h"
 
+#include "graphics/shading/realism.h"
+
 namespace parvis::render {
 namespace {
 
@@ -62,6 +64,11 @@ void PictureTarget::restore() {
 void PictureTarget::copy(const gl::Texture& from, const gl::Texture& to) const {
   constexpr GLenum kind = GL_TEXTURE_2D_MULTISAMPLE;
   glCopyImageSubData(from.name(), kind, 0, 0, 0, 0, to.name(), kind, 0, 0, 0, 0, width_, height_, 1);
+}
+
+void PictureTarget::set_realism(float level) {
+  resolve_.set("has_ink", int(shading::ink_at(level) > 0.0f));
+  display_.set("paper_share", shading::realism_at(level).w);
 }
 
 void PictureTarget::resolve(float exposure) {

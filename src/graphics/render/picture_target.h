@@ -29,6 +29,8 @@ class PictureTarget {
 
   /// Framebuffer to draw into: RGBA16F and depth, multisampled.
   GLuint framebuffer() const { return multisampled_.name(); }
+  /// Where a picture stands between a sketch and a photograph (scene::Realism), from the next `resolve` on.
+  void set_realism(float level);
   /// Keeps the samples as they are, for `restore`.
   void keep();
   /// Makes the samples what they were when they were kept, in this size.

@@ -6,6 +6,8 @@
 #include "graphics/render/bindings.h"
 #include "graphics/render/frame.h"
 #include "graphics/render/held_drawables.h"
+#include "graphics/shading/realism.h"
+#include "scene/data/realism.h"
 
 namespace parvis::render {
 namespace {
@@ -99,6 +101,7 @@ void Renderer::bind_frame(const View& view) {
       view.kind == ViewKind::shadow ? view.clip_from_world : with_reversed_depth(view.clip_from_world);
   frame.viewer_position = glm::vec4(view.position_in_world, 1.0f);
   frame.frame_size = {float(view.width), float(view.height), 0.0f, 0.0f};
+  frame.frame_realism = shading::realism_at(realism_);
   light_->fill(frame);
   const bool has_traced_sun = view.kind == ViewKind::main && traced_sun_ != 0;
   frame.frame_shadow_extra.y = has_traced_sun ? 1.0f : 0.0f;
@@ -207,6 +210,7 @@ void Renderer::begin(const scene::Scene& scene, const Camera& camera, bool has_m
   }
   if (light_->update(scene)) ++fixed_changes_;
   exposure_ = scene.exposure;
+  realism_ = scene.data<scene::Realism>().level;
   body_shade_ = shading::make_body_shade(
       has_moving_shade ? std::span<const shading::Body>(bodies_) : std::span<const shading::Body>(),
       camera.position_in_world());
@@ -246,6 +250,7 @@ void Renderer::prepare_main_view(const Camera& camera, int width, int height, Su
 void Renderer::draw_main_view() {
   draw_prepared(main_view_, drawables_);
   main_view_.shown_objects = nullptr;
+  target().set_realism(realism_);
   target().resolve(exposure_);
 }
 

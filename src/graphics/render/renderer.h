@@ -125,6 +125,7 @@ class Renderer {
 
   std::unique_ptr<LightSource> light_;
   float exposure_ = 1.0f;
+  float realism_ = 1.0f;    ///< scene::Realism
   double budget_ms_ = 0.0;  ///< of a frame; 0: none
   int fixed_changes_ = 0;
   int frames_begun_ = 0;

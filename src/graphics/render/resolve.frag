@@ -5,16 +5,19 @@
 
 uniform highp sampler2DMS samples;
 uniform float exposure;
+uniform bool has_ink;  // its alpha is the share of a sample that no ink covers
 out vec4 radiance;
 
 void main() {
   vec3 sum = vec3(0.0f);
+  float bare = 0.0f;
   float weights = 0.0f;
   for (int i = 0; i < 4; ++i) {
-    vec3 s = texelFetch(samples, ivec2(gl_FragCoord.xy), i).rgb;
-    float weight = sample_weight(exposure * s);
-    sum += weight * s;
+    vec4 s = texelFetch(samples, ivec2(gl_FragCoord.xy), i);
+    float weight = sample_weight(exposure * s.rgb);
+    sum += weight * s.rgb;
+    bare += 0.25f * s.a;
     weights += weight;
   }
-  radiance = vec4(sum / weights, 1.0f);
+  radiance = vec4(sum / weights, has_ink ? bare : 1.0f);
 }

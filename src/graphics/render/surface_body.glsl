@@ -16,6 +16,7 @@
 #include "graphics/render/sun_lookup.glsl"
 #include "graphics/render/surroundings.glsl"
 #include "graphics/shading/surface.glsl"
+#include "graphics/shading/realism.glsl"
 #include "graphics/shading/glass.glsl"
 #include "graphics/shading/lighting.glsl"
 #include "graphics/render/surface_interface.glsl"
@@ -136,7 +137,8 @@ vec3 radiance_of(Surface s, SeenPoint seen, float sun) {
   vec3 coat_reflection = vec3(0.0f);
 #endif
 #ifdef IS_GLASS
-  s.emission += (vec3(1.0f) - base_reflectance(s, clamp(dot(s.normal, seen.to_viewer), 1e-4f, 1.0f))) *
+  s.emission += (1.0f - frame_realism.x) *
+                (vec3(1.0f) - base_reflectance(s, clamp(dot(s.normal, seen.to_viewer), 1e-4f, 1.0f))) *
                 light_through(-seen.to_viewer);
 #endif
 #ifdef HAS_VERTEX_LIGHT
@@ -157,6 +159,9 @@ void main() {
   float sun = 1.0f, alpha;
   Surface s = surface_at(seen, sun, alpha);
   alpha = covered(alpha);
+#if !defined(WRITES_OBJECT) && !defined(WRITES_DEPTH)
+  if (!shows_everything(frame_realism)) s = simplified(s, seen.normal, frame_realism);
+#endif
 #if defined(WRITES_SURFACE)
   write_surface(s, seen.to_viewer);
 #elif defined(WRITES_OBJECT)

@@ -3,6 +3,7 @@
 #include "base/checked.h"
 #include "base/memory_budget.h"
 #include "graphics/gl/context.h"
+#include "graphics/shading/realism.h"
 #include "graphics/shading/tone_curve.h"
 #include "house/stage/place_check.h"
 #include "house/stage/refinement.h"
@@ -10,6 +11,7 @@
 #include "reflections/methods/frame.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
+#include "scene/data/realism.h"
 
 namespace parvis::house {
 namespace {
@@ -76,11 +78,15 @@ Result<Play> open_play(const House& house, const std::filesystem::path& script,
   return make_play(house, std::move(loaded->scene), std::move(live));
 }
 
-Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer, ShownRadiance refined)
+Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer, std::unique_ptr<realism::EdgeLines> lines,
+             ShownRadiance refined)
     : play_(std::move(play)),
       renderer_(std::move(renderer)),
+      lines_(std::move(lines)),
       refined_(std::move(refined)),
-      kept_rays_(std::make_unique<KeptRays>()) {}
+      kept_rays_(std::make_unique<KeptRays>()) {
+  renderer_->add(lines_.get());
+}
 
 Stage::~Stage() = default;
 
@@ -92,7 +98,10 @@ Result<std::unique_ptr<Stage>> Stage::create(Play play) {
   if (!renderer) return renderer.errors();
   Result<ShownRadiance> refined = ShownRadiance::create();
   if (!refined) return refined.errors();
-  std::unique_ptr<Stage> stage(new Stage(std::move(play), *std::move(renderer), *std::move(refined)));
+  Result<std::unique_ptr<realism::EdgeLines>> lines = realism::EdgeLines::create((*renderer)->gpu());
+  if (!lines) return lines.errors();
+  std::unique_ptr<Stage> stage(
+      new Stage(std::move(play), *std::move(renderer), *std::move(lines), *std::move(refined)));
   if (Status status = stage->set_reflection(methods::settings(stage->scene())); !status)
     return status.errors();
   return stage;
@@ -203,10 +212,12 @@ void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn,
 }
 
 void Stage::refine(const Camera& camera, int width, int height) {
+  const bool has_lines = shading::ink_at(scene().data<scene::Realism>().level) > 0.0f;
   if (!refinement_) {
     const glm::ivec2 size(width, height);
     reflections_->hold(double(methods::settings(play_.scene).budget_ms));
     if (size != glm::ivec2(renderer_->width(), renderer_->height())) return draw(camera, size, size);
+    if (has_lines) return;
     refinement_ =
         std::make_unique<Refinement>(*kept_rays_, play_.scene, renderer_->sky(), renderer_->drawn_light(),
                                      camera, width, height, methods::settings(play_.scene).bounces);

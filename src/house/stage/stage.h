@@ -11,6 +11,7 @@
 
 #include "base/house.h"
 #include "graphics/gl/pass_times.h"
+#include "graphics/realism/edge_lines.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/drawables.h"
 #include "graphics/render/picture_scale.h"
@@ -118,7 +119,8 @@ class Stage {
 
   /// Replaces `draw` where neither view nor scene has changed since the last frame: draws it once more in
   /// full resolution if it was not, then refines it by the ray tracer, on other threads, and displays that
-  /// picture from as many samples per pixel on as drawn ones have. `draw` ends it.
+  /// picture from as many samples per pixel on as drawn ones have. `draw` ends it. Pictures with lines
+  /// (scene::Realism) are not refined.
   void refine(const Camera& camera, int width, int height);
   /// Samples per pixel of the refined picture that is displayed; 0: the drawn picture is.
   int refined_samples() const { return refined_samples_; }
@@ -144,12 +146,14 @@ class Stage {
   void end_refinement();
   void adapt_to(const Camera& camera);
   bool has_new_mirrors();
-  Stage(Play play, std::unique_ptr<render::Renderer> renderer, ShownRadiance refined);
+  Stage(Play play, std::unique_ptr<render::Renderer> renderer, std::unique_ptr<realism::EdgeLines> lines,
+        ShownRadiance refined);
   void draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn,
             const std::vector<std::uint8_t>* shown = nullptr);
 
   Play play_;
   std::unique_ptr<render::Renderer> renderer_;
+  std::unique_ptr<realism::EdgeLines> lines_;  ///< that it draws
   std::unique_ptr<methods::Reflections> reflections_;
   methods::Settings shown_reflection_;
   std::set<const scene::Model*>

@@ -202,7 +202,7 @@ std::vector<Point> edges_in_the_way(const Cut& cut, std::span<const Point> candi
   return {hull.begin() + 1, hull.end() - 1};
 }
 
-/// What the boundary adds in dB where the path is diffracted over the edges, by band (2.5.5).
+/// Attenuation that the boundary adds in dB where the path is diffracted over the edges, by band (2.5.5).
 struct Diffraction {
   Octaves loss_db{};
   double difference_m = 0.0;        ///< δ
@@ -250,7 +250,7 @@ Octaves ground_of_whole_path(const Cut& cut) {
 
 double divergence_db(double distance_m) { return 20.0 * std::log10(std::max(distance_m, 0.1)) + 11.0; }
 
-/// What ground and edges add in dB.
+/// Attenuation by ground and edges, in dB.
 Octaves boundary(const Cut& cut) {
   const std::vector<Point> candidates = candidate_edges(cut.profile);
   if (const std::vector<Point> edges = edges_in_the_way(cut, candidates); !edges.empty())

@@ -65,8 +65,9 @@ Octaves attenuation_over(const Profile& profile, const Octaves& air_db_per_m, Co
 Octaves attenuation_around(const Profile& profile, const Detour& detour, const Octaves& air_db_per_m,
                            Condition condition);
 
-/// What reflection adds to the attenuation of the unfolded path, in dB (2.5.7): absorption, and the loss at
-/// an upper edge that is near the path (retrodiffraction). Nothing where the path passes above a reflector.
+/// Attenuation that reflection adds to the attenuation of the unfolded path, in dB (2.5.7): absorption, and
+/// the loss at an upper edge that is near the path (retrodiffraction). Nothing where the path passes above a
+/// reflector.
 std::optional<Octaves> reflection_loss(const Profile& profile, std::span<const Reflector> reflectors,
                                        Condition condition);
 

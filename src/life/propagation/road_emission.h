@@ -38,7 +38,7 @@ struct RoadSurface {
   std::array<double, 3> beta{};
 };
 
-/// What crosses a road.
+/// Traffic that crosses a road.
 enum class Junction { none, crossing_with_lights, roundabout };
 
 /// Traffic of an hour on a road and what else its noise depends on.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 #include <set>
 
 #include "base/known_names.h"
@@ -29,6 +30,13 @@ class Draft {
   /// `to_change`.
   std::vector<Node> objects(const Names& names, bool to_change = true);
   Node fresh(const char* type) const;
+  /// The node of the design by this name; null: there is none.
+  const Node* child(const std::string& name) const {
+    if (view_.design)
+      for (const Node& node : view_.design->children)
+        if (node.text("name") == name) return &node;
+    return nullptr;
+  }
 
   void changes(const Node& before, Node after) { made_.push_back({before, std::move(after), {}}); }
   void adds(Node node) { made_.push_back({std::nullopt, std::move(node), {}}); }
@@ -39,6 +47,7 @@ class Draft {
   double height_at(glm::dvec2 at, const Names& without = {}) const {
     return view_.resting_height ? view_.resting_height(at, without) : 0.0;
   }
+  bool knows_kind(const std::string& name) const { return find_kind(view_.scene, name) != nullptr; }
   const Kind* kind(const std::string& name) {
     const Kind* found = find_kind(view_.scene, name);
     if (!found) fail(error("{}", no_such_kind(view_.scene, name)));
@@ -83,7 +92,8 @@ std::vector<Node> Draft::objects(const Names& names, bool to_change) {
     if (view_.design)
       for (const Node& node : view_.design->children) {
         const std::string name = name_of(node);
-        const bool is_meant = scene::is_pattern(wanted) ? scene::matches(wanted, name) : wanted == name;
+        const bool is_meant =
+            is_thing(node) && (scene::is_pattern(wanted) ? scene::matches(wanted, name) : wanted == name);
         if (!is_meant) continue;
         is_any = true;
         if (!seen.insert(&node).second) continue;
@@ -130,7 +140,8 @@ void Draft::give(Node& node, const char* attribute, const Value& value) {
 void Draft::give_text(Node& node, const char* attribute, const std::string& text) {
   const scene::AttributeSchema* schema = node.schema->find(attribute);
   if (!schema) return fail(error("a {} has no {}", node.schema->type, attribute));
-  Result<scene::AttributeValue> value = scene::parse_value(*schema, text, Roots(""), {});
+  Result<scene::AttributeValue> value =
+      scene::parse_value(*schema, text, Roots(view_.scene.file.parent_path()), {});
   if (!value) return fail(value.errors().front());
   node.set(attribute, *std::move(value));
   node.attributes.back().where = {};
@@ -305,6 +316,46 @@ struct Maker {
     const Measurement made = measurement(node, "");
     if (Status status = check_measurement(made.quantity, made.points); !status)
       draft.fail(status.errors().front());
+  }
+
+  void operator()(const KeepView& c) const {
+    Node node = draft.fresh(view_type);
+    const Node* before = draft.child(c.name);
+    if (before && before->schema->type != view_type)
+      return draft.fail(error("\"{}\" is an object of the design; give the view another name", c.name));
+    if (!before) draft.check_name(c.name);
+    draft.give(node, "name", c.name);
+    draft.place(node, c.position);
+    draft.give(node, "heading_deg", glm::radians(c.heading_deg));
+    draft.give(node, "pitch_deg", glm::radians(c.pitch_deg));
+    if (c.parallel_m)
+      draft.give(node, "parallel", *c.parallel_m);
+    else
+      draft.give(node, "fov_deg", glm::radians(c.fov_deg));
+    for (const scene::NodeAttribute& attribute : node.attributes)
+      if (Status status = scene::check_value(*attribute.schema, attribute.value); !status)
+        draft.fail(status.errors().front());
+    if (draft.has_failed()) return;
+    if (before)
+      draft.changes(*before, std::move(node));
+    else
+      draft.adds(std::move(node));
+  }
+
+  void operator()(const TakeKind& c) const {
+    if (draft.knows_kind(c.name)) return draft.fail(error("the catalogue has a kind \"{}\" already", c.name));
+    if (!(glm::compMin(c.size_m) >= 0.01 && glm::compMax(c.size_m) <= 200.0))
+      return draft.fail(error("a kind is 0.01 to 200 m large, not {:g} x {:g} x {:g} m", c.size_m.x,
+                              c.size_m.y, c.size_m.z));
+    draft.check_name(c.name);
+    Node node = draft.fresh(kind_type);
+    draft.give(node, "name", c.name);
+    draft.give_text(node, "file", c.file);
+    if (draft.has_failed()) return;
+    node.attributes.back().text = c.file;  // so a script writes it: below the scene's folder
+    draft.give(node, "size", glm::vec3(c.size_m));
+    draft.give(node, "changes", std::string("width depth height"));
+    draft.adds(std::move(node));
   }
 
   void operator()(const MovePoint& c) const {

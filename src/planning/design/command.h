@@ -117,13 +117,29 @@ struct MovePoint {
   int number = 1;
   glm::dvec3 to{0.0, 0.0, rests};
 };
+/// kind NAME FILE WIDTH,DEPTH,HEIGHT: the model in a file below the scene's folder becomes a kind
+struct TakeKind {
+  std::string name, file;
+  glm::dvec3 size_m{1.0};
+};
+/// view NAME X,Y,Z heading DEG pitch DEG [fov DEG | parallel M]: a camera of the design; one of that name is
+/// replaced. `fov_deg` is horizontal at 16:9, `parallel_m` the height of what a parallel projection shows.
+struct KeepView {
+  std::string name;
+  glm::dvec3 position{0.0};
+  double heading_deg = 0.0, pitch_deg = 0.0, fov_deg = 65.0;
+  std::optional<double> parallel_m = {};
+};
 /// rename NAME as NAME
 struct Rename {
   std::string from, to;
 };
 
 using Command = std::variant<Insert, Move, Turn, Resize, Delete, Duplicate, Row, Space, Align, Group, Lock,
-                             Paint, Swap, Apply, Surface, Measure, MovePoint, Rename>;
+                             Paint, Swap, Apply, Surface, Measure, MovePoint, TakeKind, KeepView, Rename>;
+
+/// The command that keeps a camera as a view.
+KeepView view_of(const Camera& camera, const std::string& name);
 
 /// A command's change of one object.
 struct Change {

@@ -209,6 +209,32 @@ Command read_move_point(WordReader& words) {
   return point;
 }
 
+Command read_keep_view(WordReader& words) {
+  KeepView view;
+  view.name = words.word("a name for the view");
+  view.position = words.place("where the eye stands", 1.7);
+  while (!words.is_at_end() && words.problem().empty())
+    if (words.takes("heading"))
+      view.heading_deg = words.number("degrees clockwise from north");
+    else if (words.takes("pitch"))
+      view.pitch_deg = words.number("degrees upward");
+    else if (words.takes("fov"))
+      view.fov_deg = words.number("degrees");
+    else if (words.takes("parallel"))
+      view.parallel_m = words.number("a height in m");
+    else
+      words.fail(fmt::format("\"{}\" is no word of this command", words.peek().substr(0, 40)));
+  return view;
+}
+
+Command read_take_kind(WordReader& words) {
+  TakeKind kind;
+  kind.name = words.word("a name for the kind");
+  kind.file = words.word("a file below the scene's folder");
+  kind.size_m = words.place("width, depth and height", 0.0);
+  return kind;
+}
+
 /// The word between two names.
 void expect(WordReader& words, const char* word) {
   if (!words.takes(word)) words.fail(fmt::format("expected \"{}\" behind the names", word));
@@ -288,6 +314,8 @@ const std::vector<Form>& forms() {
       {"surface", "surface MATERIAL X,Y X,Y X,Y ... [colour #RRGGBB] [name NAME]", read_surface},
       {"measure", "measure distance|area|height|slope X,Y[,Z] X,Y[,Z] ... [name NAME]", read_measure},
       {"point", "point NAME N to X,Y[,Z]", read_move_point},
+      {"view", "view NAME X,Y,Z [heading DEG] [pitch DEG] [fov DEG|parallel M]", read_keep_view},
+      {"kind", "kind NAME FILE WIDTH,DEPTH,HEIGHT", read_take_kind},
       {"rename", "rename NAME as NAME",
        [](WordReader& words) {
          Rename rename;
@@ -371,6 +399,14 @@ struct Writer {
   std::string operator()(const MovePoint& c) const {
     return fmt::format("point {} {} to {}", c.name, c.number, place(c.to));
   }
+  std::string operator()(const KeepView& c) const {
+    return fmt::format("view {} {} heading {} pitch {}", c.name, place(c.position), c.heading_deg,
+                       c.pitch_deg) +
+           (c.parallel_m ? with("parallel", c.parallel_m) : fmt::format(" fov {}", c.fov_deg));
+  }
+  std::string operator()(const TakeKind& c) const {
+    return fmt::format("kind {} {} {}", c.name, c.file, place(c.size_m));
+  }
   std::string operator()(const Rename& c) const { return fmt::format("rename {} as {}", c.from, c.to); }
 };
 
@@ -408,6 +444,8 @@ struct Teller {
     return "measured " + (c.name.empty() ? c.quantity : c.name);
   }
   std::string operator()(const MovePoint& c) const { return "moved a point of " + c.name; }
+  std::string operator()(const KeepView& c) const { return "kept the view " + c.name; }
+  std::string operator()(const TakeKind& c) const { return "took up the kind " + c.name; }
   std::string operator()(const Rename& c) const { return fmt::format("renamed {} to {}", c.from, c.to); }
 };
 
@@ -432,6 +470,21 @@ Result<Command> parse_command(std::string_view text) {
 
 std::string text_of(const Command& command) { return std::visit(Writer{}, command); }
 std::string sentence_of(const Command& command) { return std::visit(Teller{}, command); }
+
+KeepView view_of(const Camera& camera, const std::string& name) {
+  const glm::dvec3 ahead(camera.forward_in_world());
+  const bool is_vertical = std::abs(ahead.z) > 0.9999;
+  const glm::dvec3 level = is_vertical ? glm::dvec3(camera.world_from_camera[1]) : ahead;
+  KeepView view{name, glm::round(1e3 * glm::dvec3(camera.position_in_world())) / 1e3};
+  const auto tenths = [](double degrees) { return std::round(100.0 * degrees) / 100.0; };
+  view.heading_deg = tenths(glm::degrees(std::atan2(level.x, level.y)));
+  view.pitch_deg = tenths(glm::degrees(std::asin(std::clamp(ahead.z, -1.0, 1.0))));
+  constexpr double nominal_aspect = 16.0 / 9.0;
+  view.fov_deg =
+      tenths(glm::degrees(2.0 * std::atan(nominal_aspect * std::tan(0.5 * double(camera.vertical_fov)))));
+  if (camera.parallel) view.parallel_m = double(camera.parallel->height_m);
+  return view;
+}
 
 const std::vector<std::string>& command_forms() {
   static const std::vector<std::string> all = [] {

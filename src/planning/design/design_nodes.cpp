@@ -231,8 +231,14 @@ void add_design_nodes(House& house) {
                [readers = &house.get<formats::Readers>()](const Node& node, SceneBuilder& builder) {
                  build_placed(node, builder, *readers);
                });
+  registry.allow(view_type, design_type);
   registry.add(surface_schema(), build_surface);
   registry.add(measured_schema(), check_measured);
+}
+
+bool is_thing(const Node& node) {
+  return node.schema->type == placed_type || node.schema->type == surface_type ||
+         node.schema->type == measured_type;
 }
 
 std::vector<const Node*> designs_of(const scene::LiveScene& live) {
@@ -286,7 +292,7 @@ std::vector<PlacedObject> placed_objects(const scene::Scene& scene, const scene:
     const bool is_shown = live.frame_of(*node).is_visible && node->flag("visible");
     if ((!design.empty() && name != design) || (only_visible && !is_shown)) continue;
     for (const Node& child : node->children) {
-      if (child.schema->type == measured_type) continue;
+      if (child.schema->type == measured_type || !is_thing(child)) continue;
       PlacedObject object = placed_object(scene, child, name);
       object.is_visible = object.is_visible && is_shown;
       if (!only_visible || object.is_visible) all.push_back(std::move(object));

@@ -12,11 +12,15 @@
 namespace parvis::design {
 
 inline constexpr const char *design_type = "design", *placed_type = "placed", *surface_type = "surface",
-                            *measured_type = "measured";
+                            *measured_type = "measured", *kind_type = "kind", *view_type = "camera";
 
 /// Registers design, placed, surface and measured. `house` outlives the scenes: its readers read models of
 /// kinds.
 void add_design_nodes(House& house);
+
+/// Does a node in a design stand for an object, a ground surface or a measurement? Kinds and views stand
+/// there, too.
+bool is_thing(const scene::Node& node);
 
 /// The designs of a scene, in the order of its script.
 std::vector<const scene::Node*> designs_of(const scene::LiveScene& live);

@@ -40,7 +40,7 @@ scene::NodeSchema kind_schema() {
                          text("changes", "what may be changed: width, depth, height, colour, material"),
                          colour("colour", "of what may have another one").by_default("#808080"),
                          flag("round", "its plan is an ellipse").by_default("0")},
-          .stands_in = {scene::top_level, "group"},
+          .stands_in = {scene::top_level, "group", "design"},
           .example = "kind(name=\"planter_oak\", label=\"Oak planter\", shape=planter, size=\"1 1 0.6\")"};
 }
 
@@ -76,6 +76,10 @@ const std::vector<Kind>& shipped_kinds() {
     return made;
   }();
   return kinds;
+}
+
+void forget_kind(scene::Scene& scene, const std::string& name) {
+  std::erase_if(scene.data<Kinds>().own, [&](const Kind& kind) { return kind.name == name; });
 }
 
 std::vector<Kind> kinds_of(const scene::Scene& scene) {

@@ -47,6 +47,9 @@ struct Kinds {
 /// The catalogue that the program ships, in its order.
 const std::vector<Kind>& shipped_kinds();
 
+/// A kind that the scene does not know any more: `take_kind` was taken back.
+void forget_kind(scene::Scene& scene, const std::string& name);
+
 /// All kinds that a scene may place: the shipped ones, then its own.
 std::vector<Kind> kinds_of(const scene::Scene& scene);
 /// The kind of that name; null: there is none.

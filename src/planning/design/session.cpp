@@ -84,7 +84,8 @@ Status Session::select_by(const std::vector<std::string>& words) {
   const std::string how = words.size() > 1 ? words[1] : "";
   std::vector<PlacedObject> all;  // and measurements
   if (const Node* node = design())
-    for (const Node& child : node->children) all.push_back(placed_object(scene_, child, name_));
+    for (const Node& child : node->children)
+      if (is_thing(child)) all.push_back(placed_object(scene_, child, name_));
   const auto choose = [&](const auto& fits) {
     Names names;
     for (const PlacedObject& object : all)
@@ -185,7 +186,8 @@ Status Session::do_step(const Command& command) {
   if (Status status = apply(*changes, true); !status) return status;
   Names made;
   for (const Change& change : *changes)
-    if (change.after && (!change.before || change.before->text("name") != change.after->text("name")))
+    if (change.after && is_thing(*change.after) &&
+        (!change.before || change.before->text("name") != change.after->text("name")))
       made.push_back(change.after->text("name"));
   if (!made.empty()) selected_ = std::move(made);
   select(selected_);
@@ -201,7 +203,10 @@ Status Session::apply_one(const Change& change, bool forward) {
         &to = forward ? change.after : change.before;
   const Node* here = from ? child_of(design(), from->text("name")) : nullptr;
   assert(!from || here);
-  if (!to) return live.remove(scene, *here);
+  if (!to) {
+    if (from->schema->type == kind_type) forget_kind(scene, from->text("name"));
+    return live.remove(scene, *here);
+  }
   if (!from) {
     const Node* parent = design();
     if (!parent) {

@@ -67,6 +67,7 @@ constexpr auto french = std::to_array<std::pair<std::string_view, std::string_vi
      "Cliquez deux points : la pente de l'un à l'autre. M : une distance."},
     {"Let go where the end shall be. Esc takes it back.", "Relâchez où placer l'extrémité. Échap l'annule."},
     {"Measured", "Mesure"},
+    {"Keep this view", "Garder cette vue"},
     {"compared in colours", "comparaison en couleurs"},
     {"drag the line between the designs", "tirez la ligne entre les projets"},
     {"side by side", "côte à côte"},

@@ -49,6 +49,11 @@ NodeSchema camera_schema() {
                .between(1, 170)
                .by_default("65")
                .live(),
+           number("parallel",
+                  "a parallel projection, as of a plan: height of what it shows, in place of fov_deg")
+               .in("m")
+               .between(0.1, 1e6)
+               .live(),
            reference("follows", "name of the object to stay with"),
            vec3("offset", "of the eye from the followed object: forward, left, up")
                .in("m")
@@ -115,6 +120,11 @@ void build_camera(const Node& node, SceneBuilder& builder) {
   camera.camera.world_from_camera =
       rigid(builder.world_from_parent() * world_from_camera(node) * rolled(node));
   camera.camera.vertical_fov = vertical_fov(node.angle("fov_deg"), nominal_aspect);
+  if (node.gives("parallel")) {
+    constexpr float min_distance_m = 10.0f;
+    camera.camera.parallel =
+        ParallelView{float(node.number("parallel")), std::max(node.vec3("position").z, min_distance_m)};
+  }
   camera.camera.far_m = sight_m;
   camera.follows = node.text("follows");
   if (!camera.follows.empty()) follow(node, builder, camera);

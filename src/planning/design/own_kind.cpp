@@ -1,0 +1,85 @@
+#include "planning/design/own_kind.h"
+
+#include <algorithm>
+#include <cctype>
+#include <glm/gtx/component_wise.hpp>
+
+#include "formats/gltf/gltf_writer.h"
+
+namespace parvis::design {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double smallest_m = 0.01, largest_m = 200.0;
+constexpr double house_m = 60.0;  // what is larger was hardly drawn in metres
+
+/// A name that commands can write: letters, digits and underscores.
+std::string name_of(const fs::path& file) {
+  std::string name;
+  for (const char c : file.stem().string())
+    name += std::isalnum(static_cast<unsigned char>(c)) && static_cast<unsigned char>(c) < 128
+                ? char(std::tolower(static_cast<unsigned char>(c)))
+                : '_';
+  return name.empty() ? "own" : name.substr(0, 40);
+}
+
+std::string extents(const glm::dvec3& size) {
+  return fmt::format("{:.3g} x {:.3g} x {:.3g} m", size.x, size.y, size.z);
+}
+
+/// A name that neither a kind has nor a file beside the scene.
+std::string free_name(const scene::Scene& scene, const fs::path& folder, const fs::path& file) {
+  const std::string stem = name_of(file);
+  std::error_code code;
+  for (int number = 1;; ++number) {
+    std::string name = number == 1 ? stem : fmt::format("{}_{}", stem, number);
+    if (!find_kind(scene, name) && !fs::exists(folder / (name + ".glb"), code)) return name;
+  }
+}
+
+}  // namespace
+
+Result<OwnKind> import_kind(const formats::Readers& readers, const scene::Scene& scene, const fs::path& file,
+                            double unit_m) {
+  if (scene.file.empty())
+    return error("{}: the scene has no file beside which a kind could lie", file.string());
+  Errors warnings;
+  Result<scene::Model> model = readers.read(file, {}, warnings);
+  if (!model) return model.errors();
+  for (const Error& warning : warnings) fmt::print(stderr, "warning: {}\n", to_string(warning));
+  const Bounds box = bounds(*model);
+  if (model->triangle_count() == 0 || box.empty())
+    return error("{}: the model has no triangles: nothing would be seen of it", file.string());
+  const glm::dvec3 drawn(box.size());
+  const bool is_guessed = unit_m == 0.0 && glm::compMax(drawn) > house_m;
+  const double unit = unit_m > 0.0 ? unit_m : is_guessed ? millimetre : metre;
+  const glm::dvec3 size = glm::max(unit * drawn, glm::dvec3(smallest_m));
+  if (glm::compMax(unit * drawn) < smallest_m || glm::compMax(size) > largest_m)
+    return error(
+        "{}: the model is {} in metres, {} in centimetres, {} in millimetres; say in which unit it was "
+        "drawn (parvis plan --kind FILE --kind-unit cm)",
+        file.string(), extents(drawn), extents(centimetre * drawn), extents(millimetre * drawn));
+
+  const fs::path folder = scene.file.parent_path() / "kinds";
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) return error("{}: the folder cannot be made: {}", folder.string(), code.message());
+  OwnKind made;
+  made.command.name = free_name(scene, folder, file);
+  made.command.file = "kinds/" + made.command.name + ".glb";
+  made.command.size_m = glm::round(1e4 * size) / 1e4;
+  scene::Object object;
+  object.name = made.command.name;
+  object.model = std::make_shared<const scene::Model>(*std::move(model));
+  const glm::vec3 foot(box.centre().x, box.centre().y, box.min.z);
+  object.world_from_model = glm::translate(glm::scale(glm::mat4(1.0f), glm::vec3(float(unit))), -foot);
+  const scene::Object* const objects[]{&object};
+  if (Status status = scene::write_gltf(scene.file.parent_path() / made.command.file, objects, {}); !status)
+    return status.errors();
+  made.note = fmt::format("{}: {}{}", made.command.name, extents(made.command.size_m),
+                          is_guessed ? ", read as millimetres" : "");
+  return made;
+}
+
+}  // namespace parvis::design
