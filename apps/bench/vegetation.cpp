@@ -21,8 +21,8 @@
 #include "life/vegetation/plant_drawable.h"
 #include "life/vegetation/plant_selection.h"
 #include "life/vegetation/scene_plant.h"
-#include "places/paper_city/round_mesh.h"
 #include "scene/data/sun_shadows.h"
+#include "synthesis/round_mesh.h"
 
 namespace parvis::bench {
 namespace {
@@ -123,7 +123,7 @@ scene::Scene make_scene(Report& report) {
   scene::Scene scene;
   auto lawn = std::make_shared<scene::Model>();
   scene::Part part;
-  part.mesh = city::panelled_box({-300, -300, -1}, {300, 300, 0}, 20.0f);
+  part.mesh = synthesis::panelled_box({-300, -300, -1}, {300, 300, 0}, 20.0f);
   lawn->parts.push_back(std::move(part));
   lawn->materials.emplace_back();
   lawn->materials.back().base_colour = {0.12f, 0.2f, 0.06f};

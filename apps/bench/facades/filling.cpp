@@ -19,7 +19,7 @@
 #include "places/paper_city/city_buildings.h"
 #include "places/paper_city/paper_city.h"
 #include "places/paper_city/paper_script.h"
-#include "places/paper_city/sky_picture.h"
+#include "synthesis/sky_picture.h"
 
 namespace parvis::bench {
 namespace {
@@ -90,7 +90,7 @@ scene::Scene city_scene() {
   object.name = "city", object.model = std::make_shared<scene::Model>(city::make_city_model(seed));
   scene.objects.push_back(std::move(object));
   scene.sun.direction_to_sun = city::to_sun();
-  scene.sky.picture = shading::without_sun(city::sky_picture(256, city::to_sun(), seed));
+  scene.sky.picture = shading::without_sun(synthesis::sky_picture(256, city::to_sun(), seed));
   return scene;
 }
 

@@ -27,7 +27,7 @@
 #include "graphics/render/renderer.h"
 #include "house/stage/stage.h"
 #include "places/paper_city/paper_script.h"
-#include "places/paper_city/sky_picture.h"
+#include "synthesis/sky_picture.h"
 
 namespace parvis::bench {
 namespace {
@@ -313,7 +313,7 @@ void measure_gpu(const BenchSetup& setup, GpuSamples& samples, Report& report) {
   double maximum = 0.0, to_value = 0.0, off_model = 0.0, off_model_99 = 0.0;
   double of_formulas = 0.0, of_formulas_to_value = 0.0;
   DrawnSky drawn_sky = DrawnSky::create();
-  const auto dome = std::make_shared<const ImageF>(city::sky_picture(512, city::to_sun(), 1));
+  const auto dome = std::make_shared<const ImageF>(synthesis::sky_picture(512, city::to_sun(), 1));
   const std::vector<double> turbidities =
       setup.is_quick ? std::vector{3.0} : std::vector{1.0, 3.0, 10.0, 64.0};
   for (const double turbidity : turbidities)
@@ -363,7 +363,7 @@ void measure_gpu(const BenchSetup& setup, GpuSamples& samples, Report& report) {
 }  // namespace
 
 void measure_sky_update(const BenchSetup& setup, Report& report) {
-  must(write_image(setup.folder / clouds_file, city::sky_picture(clouds_px, city::to_sun(), 1)));
+  must(write_image(setup.folder / clouds_file, synthesis::sky_picture(clouds_px, city::to_sun(), 1)));
   PassingDay clear = PassingDay::open(setup, setup.folder / "clear.xp", ""),
              cloudy = PassingDay::open(setup, setup.folder / "cloudy.xp",
                                        fmt::format("skyDome(texture=\"{}\")\n", clouds_file));

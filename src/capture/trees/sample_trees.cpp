@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/colour.h"
-#include "places/paper_city/tree.h"
-#include "places/paper_city/tree_mesh.h"
-#include "places/paper_city/tree_skeleton.h"
+#include "synthesis/tree.h"
+#include "synthesis/tree_mesh.h"
+#include "synthesis/tree_skeleton.h"
 
 namespace parvis::trees {
 namespace {
@@ -14,8 +14,8 @@ namespace {
 constexpr int bark_material = 0, leaf_material = 1;  // materials of the house's trees
 
 struct Kind {
-  city::Species species;
-  city::Sprays sprays;
+  synthesis::Species species;
+  synthesis::Sprays sprays;
   glm::vec3 leaf_tint, bark_tint;
   int fruits = 0;
 };
@@ -85,10 +85,10 @@ void add_ball(Mesh& mesh, glm::vec3 middle, float radius_m) {
 }
 
 /// Hanging below twigs of the crown's outside.
-Mesh fruit(const std::vector<city::Branch>& tree, int count, Random& random) {
+Mesh fruit(const std::vector<synthesis::Branch>& tree, int count, Random& random) {
   Mesh mesh;
-  std::vector<const city::Branch*> twigs;
-  for (const city::Branch& branch : tree)
+  std::vector<const synthesis::Branch*> twigs;
+  for (const synthesis::Branch& branch : tree)
     if (branch.order == 2) twigs.push_back(&branch);
   for (int i = 0; i < count; ++i)
     add_ball(mesh,
@@ -111,19 +111,19 @@ Result<scene::Model> make_sample_tree(std::string_view name, std::uint64_t seed)
     return error("no sample tree is called \"{}\"; there are {}", name, fmt::join(sample_tree_names, ", "));
   const Kind kind = kind_of(name);
   Random random(seed, 300);
-  const std::vector<city::Branch> tree = city::grow_tree(kind.species, random);
+  const std::vector<synthesis::Branch> tree = synthesis::grow_tree(kind.species, random);
   Mesh wood;
-  for (const city::Branch& branch : tree)
-    city::add_tube(wood, branch, kind.species.orders[std::size_t(branch.order)].sides);
+  for (const synthesis::Branch& branch : tree)
+    synthesis::add_tube(wood, branch, kind.species.orders[std::size_t(branch.order)].sides);
 
-  scene::Model model = city::make_tree(1, seed);  // for its bark and leaves
+  scene::Model model = synthesis::make_tree(1, seed);  // for its bark and leaves
   model.name = std::string(name), model.parts.clear();
   model.materials[bark_material].base_colour *= kind.bark_tint,
       model.materials[leaf_material].base_colour *= kind.leaf_tint;
   add_part(model, "wood", std::move(wood), bark_material);
   if (kind.sprays.count > 0)
     add_part(model, "foliage",
-             city::foliage(tree, kind.sprays, {0.0f, 0.0f, 0.55f * kind.species.height_m}, random),
+             synthesis::foliage(tree, kind.sprays, {0.0f, 0.0f, 0.55f * kind.species.height_m}, random),
              leaf_material);
   if (kind.fruits > 0) {
     scene::Material orange;

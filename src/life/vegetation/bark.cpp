@@ -1,13 +1,13 @@
 #include "life/vegetation/bark.h"
 
 #include "base/colour.h"
-#include "places/paper_city/leaf_texture.h"
+#include "synthesis/leaf_texture.h"
 
 namespace parvis::vegetation {
 
 const scene::Texture& bark_texture() {
   static const scene::Texture texture = [] {
-    city::SurfacePictures pictures = city::bark_pictures(glm::vec3(0.5f), 77);
+    synthesis::SurfacePictures pictures = synthesis::bark_pictures(glm::vec3(0.5f), 77);
     // Cracks are darker: their openness is in the colour, for there is no other map.
     for (int y = 0; y < pictures.colour.height; ++y)
       for (int x = 0; x < pictures.colour.width; ++x) {

@@ -6,8 +6,8 @@
 namespace parvis::vegetation {
 namespace {
 
-using city::Branch, city::BranchOrder;
 using glm::vec3;
+using synthesis::Branch, synthesis::BranchOrder;
 
 constexpr float golden_angle = 2.39996323f;
 constexpr float whorl_m = 0.42f;        // a year's growth
@@ -58,7 +58,7 @@ Branch grow_branch(const Place& foot, vec3 direction, float length_m, int order,
   return branch;
 }
 
-Branch grow_trunk(const city::Species& species, Random& random) {
+Branch grow_trunk(const synthesis::Species& species, Random& random) {
   const BranchOrder& rule = species.orders[0];
   Branch trunk;
   for (int i = 0; i <= rule.steps; ++i) {
@@ -71,7 +71,7 @@ Branch grow_trunk(const city::Species& species, Random& random) {
   return trunk;
 }
 
-void grow_whorls(std::vector<Branch>& tree, const city::Species& species, Random& random) {
+void grow_whorls(std::vector<Branch>& tree, const synthesis::Species& species, Random& random) {
   const BranchOrder& rule = species.orders[1];
   const float crown_m = (1.0f - rule.first) * species.height_m;
   const int whorls = std::clamp(int(crown_m / whorl_m), 6, 36);
@@ -116,7 +116,7 @@ void grow_comb(std::vector<Branch>& tree, std::size_t parent_index, const Branch
 
 }  // namespace
 
-std::vector<Branch> grow_in_whorls(const city::Species& species, Random& random) {
+std::vector<Branch> grow_in_whorls(const synthesis::Species& species, Random& random) {
   std::vector<Branch> tree{grow_trunk(species, random)};
   grow_whorls(tree, species, random);
   for (std::size_t i = 1; i < tree.size(); ++i)

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "places/paper_city/tree_skeleton.h"
+#include "synthesis/tree_skeleton.h"
 
 namespace parvis::vegetation {
 
@@ -12,6 +12,6 @@ namespace parvis::vegetation {
 /// origin. Of the orders, trunk, branches, twigs and their own twigs: `children` of branches are those of a
 /// whorl, of twigs at most so many; `first` of branches is the height of the lowest whorl over the tree's,
 /// `length_share` their length there over the tree's height; angles are those at the foot.
-std::vector<city::Branch> grow_in_whorls(const city::Species& species, Random& random);
+std::vector<synthesis::Branch> grow_in_whorls(const synthesis::Species& species, Random& random);
 
 }  // namespace parvis::vegetation

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "life/vegetation/leaf_template.h"
-#include "places/paper_city/tree_skeleton.h"
+#include "synthesis/tree_skeleton.h"
 
 namespace parvis::vegetation {
 
@@ -25,9 +25,9 @@ struct PlantKind {
   Habit habit;
   float height_m;  ///< as usual
   float min_height_m, max_height_m;
-  float trunk_share;                      ///< radius of the trunk at its foot, of the height
-  std::vector<city::BranchOrder> orders;  ///< of trees
-  bool grows_in_whorls = false;           ///< of trees: as grow_in_whorls does, else they fork (grow_tree)
+  float trunk_share;                           ///< radius of the trunk at its foot, of the height
+  std::vector<synthesis::BranchOrder> orders;  ///< of trees
+  bool grows_in_whorls = false;  ///< of trees: as grow_in_whorls does, else they fork (grow_tree)
   LeafForm leaf;
   float leaf_m;  ///< mean length
   /// Number of leaves: of a tree at the usual height; of others per square metre of hedge's surface, of

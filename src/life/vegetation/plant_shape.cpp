@@ -8,14 +8,14 @@
 #include "base/random.h"
 #include "life/vegetation/conifer.h"
 #include "life/vegetation/leaf_order.h"
-#include "places/paper_city/tree_mesh.h"
 #include "scene/data/crown_openness.h"
+#include "synthesis/tree_mesh.h"
 
 namespace parvis::vegetation {
 namespace {
 
-using city::Branch;
 using glm::vec3;
+using synthesis::Branch;
 
 constexpr int first_leafy_order = 2;
 constexpr float stem_spacing_m = 0.3f;  // of a hedge
@@ -74,8 +74,8 @@ std::vector<Branch> grow_branches(const PlantRecipe& recipe, Random& random) {
   const PlantKind& kind = *recipe.kind;
   std::vector<Branch> branches;
   if (kind.habit == Habit::tree) {
-    const city::Species species{recipe.height_m, kind.trunk_share * recipe.height_m, kind.orders};
-    branches = kind.grows_in_whorls ? grow_in_whorls(species, random) : city::grow_tree(species, random);
+    const synthesis::Species species{recipe.height_m, kind.trunk_share * recipe.height_m, kind.orders};
+    branches = kind.grows_in_whorls ? grow_in_whorls(species, random) : synthesis::grow_tree(species, random);
   } else if (kind.habit == Habit::hedge) {
     const int stems = std::max(1, int(recipe.length_m / stem_spacing_m));
     for (int i = 0; i < stems; ++i) {
@@ -210,7 +210,7 @@ void add_wood(PlantShape& shape, const std::vector<Branch>& branches, Random& ra
   for (const Branch& branch : branches) {
     const std::size_t first = shape.wood.indices.size();
     const int sides = sides_of(branch);
-    city::add_tube(shape.wood, branch, sides);
+    synthesis::add_tube(shape.wood, branch, sides);
     for (std::size_t k = 0; k + 1 < branch.points.size(); ++k) {
       const float radius_m = 0.5f * (branch.radii_m[k] + branch.radii_m[k + 1]);
       pieces.push_back({radius_m, first + k * std::size_t(6 * sides), std::size_t(6 * sides)});

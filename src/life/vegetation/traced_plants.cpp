@@ -8,8 +8,8 @@
 #include "life/vegetation/plant_drawable.h"
 #include "life/vegetation/plant_selection.h"
 #include "life/vegetation/scene_plant.h"
-#include "places/paper_city/leaf_texture.h"
 #include "scene/data/sun_shadows.h"
+#include "synthesis/leaf_texture.h"
 
 namespace parvis::vegetation {
 namespace {
@@ -61,7 +61,7 @@ class WoodSurface final : public scene::TracedSurface {
     static const reference::MipTexture bark(bark_texture(), 0);
     const glm::vec3 texel(
         bark.sample(shared::bark_repeats * hit.uv,
-                    shared::bark_repeats * hit.width_m / (scale_ * city::bark_sheet_m) * bark.size().x));
+                    shared::bark_repeats * hit.width_m / (scale_ * synthesis::bark_sheet_m) * bark.size().x));
     const std::uint32_t* corner = shape_->wood.indices.data() + 3 * std::size_t(hit.triangle);
     const auto& openness = shape_->wood_openness;
     const float open = glm::mix(glm::mix(openness[corner[0]], openness[corner[1]],

@@ -5,14 +5,14 @@
 #include "base/colour.h"
 #include "base/random.h"
 #include "places/dressing/street_level_texture.h"
-#include "places/paper_city/wall_texture.h"
-#include "places/paper_city/window_texture.h"
+#include "synthesis/wall_texture.h"
+#include "synthesis/window_texture.h"
 
 namespace parvis::dressing {
 namespace {
 
-using city::SurfaceCanvas, city::SurfacePictures, city::Texel, city::Wall, city::WindowStyle,
-    city::paint_wall, city::paint_window;
+using synthesis::SurfaceCanvas, synthesis::SurfacePictures, synthesis::Texel, synthesis::Wall,
+    synthesis::WindowStyle, synthesis::paint_wall, synthesis::paint_window;
 
 constexpr int sheet_px = 1024;
 WindowStyle window_style() {

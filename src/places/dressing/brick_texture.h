@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "places/paper_city/surface_canvas.h"
+#include "synthesis/surface_canvas.h"
 
 namespace parvis::dressing {
 
@@ -36,7 +36,7 @@ std::array<glm::vec3, brick_colour_count> brick_colours();
 
 /// Bricks all over a canvas, in the colour of `painted_brick`. Alpha is the share of a texel that is not
 /// brick.
-void paint_bricks(city::SurfaceCanvas& canvas, std::uint32_t seed);
+void paint_bricks(synthesis::SurfaceCanvas& canvas, std::uint32_t seed);
 /// The colour that `paint_bricks` paints them in, linear.
 glm::vec3 painted_brick();
 
@@ -44,6 +44,6 @@ glm::vec3 painted_brick();
 Image8 in_colour(const Image8& painted, glm::vec3 factor);
 
 /// Bricks on end over an opening whose top is at `top_m`, `half_m` to both sides of its middle `x_m`.
-void paint_brick_lintel(city::SurfaceCanvas& canvas, float x_m, float top_m, float half_m);
+void paint_brick_lintel(synthesis::SurfaceCanvas& canvas, float x_m, float top_m, float half_m);
 
 }  // namespace parvis::dressing

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "places/paper_city/trim_texture.h"
+#include "synthesis/trim_texture.h"
 
 namespace parvis::dressing {
 namespace {
 
-constexpr float tile_m = city::roof_sheet_m / float(city::roof_tile_columns);
-constexpr float course_m = city::roof_sheet_m / float(city::roof_tile_rows);
+constexpr float tile_m = synthesis::roof_sheet_m / float(synthesis::roof_tile_columns);
+constexpr float course_m = synthesis::roof_sheet_m / float(synthesis::roof_tile_rows);
 constexpr float min_cone_radius_m = 0.4f;  // radius of a cone that is no longer divided
 constexpr float fewest_tiles = 6.0f;
 constexpr float triangle_counted_at = 0.7f;  // of the way to its foot: half its area lies below
@@ -45,7 +45,7 @@ class ConeSector {
     const float counted_at = head > 0.0f ? 0.5f * (head + foot) : triangle_counted_at * foot;
     const float girth_m = glm::two_pi<float>() * cone_.radius_m * counted_at;
     const float sheets =
-        std::max(std::round(girth_m / tile_m), fewest_tiles) / float(city::roof_tile_columns);
+        std::max(std::round(girth_m / tile_m), fewest_tiles) / float(synthesis::roof_tile_columns);
     const Point left = at(0, foot, sheets), right = at(1, foot, sheets);
     if (head == 0.0f) return pieces.push_back(piece({top(sheets), left, right}));
     const Point left_above = at(0, head, sheets), right_above = at(1, head, sheets);
@@ -64,7 +64,7 @@ class ConeSector {
     return {glm::mix(side_.corners[cone_.top], side_.corners[foot], share),
             glm::mix(side_.corners_in_node[cone_.top], side_.corners_in_node[foot], share),
             cone_.normals[foot],
-            {sheets * turns_[edge], share * cone_.slope_m / city::roof_sheet_m}};
+            {sheets * turns_[edge], share * cone_.slope_m / synthesis::roof_sheet_m}};
   }
   Point top(float sheets) const {
     return {side_.corners[cone_.top],

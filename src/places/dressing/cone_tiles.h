@@ -12,7 +12,7 @@ namespace parvis::dressing {
 /// A piece of a cone's side, with what its corners need to be drawn.
 struct TiledPiece {
   ModelTriangle triangle;
-  std::array<glm::vec2, 3> uvs;      ///< in the sheet of city::roof_tile_pictures
+  std::array<glm::vec2, 3> uvs;      ///< in the sheet of synthesis::roof_tile_pictures
   std::array<glm::vec3, 3> normals;  ///< unit, in the model's frame
 };
 

@@ -98,7 +98,7 @@ int add_brick_materials(scene::Model& model) {
       material.base_colour = glm::vec3(1.0f), material.roughness = 1.0f, material.metallic = 1.0f;
       material.base_colour_texture = add_texture(model, name, std::move(sheets[sheet].colours[i]), true);
       material.normal_texture = normal, material.surface_texture = surface;
-      material.relief_m = is_plain ? 0.0f : city::canvas_relief_m;
+      material.relief_m = is_plain ? 0.0f : synthesis::canvas_relief_m;
       material.is_double_sided = true;
     }
   }
@@ -126,7 +126,7 @@ class WallMaterials {
     material.base_colour_texture =
         add_texture(model_, material.name, in_colour(painted.picture, factor), true);
     material.normal_texture = painted.normal, material.surface_texture = painted.surface;
-    material.relief_m = sheet == KindSheet::plain ? 0.0f : city::canvas_relief_m;
+    material.relief_m = sheet == KindSheet::plain ? 0.0f : synthesis::canvas_relief_m;
     material.is_double_sided = true;
     return known->second;
   }

@@ -9,16 +9,17 @@
 #include <utility>
 
 #include "places/dressing/model_triangles.h"
-#include "places/paper_city/ground_texture.h"
-#include "places/paper_city/tree.h"
 #include "scene/data/model_parts.h"
+#include "synthesis/ground_texture.h"
+#include "synthesis/tree.h"
 
 namespace parvis::dressing {
 namespace {
 
-using city::SurfacePictures, city::TreeSpot, city::asphalt_pictures, city::asphalt_sheet_m,
-    city::gravel_pictures, city::gravel_sheet_m, city::lawn_pictures, city::lawn_sheet_m,
-    city::paving_pictures, city::paving_sheet_m, city::plant_small_trees;
+using synthesis::SurfacePictures, synthesis::TreeSpot, synthesis::asphalt_pictures,
+    synthesis::asphalt_sheet_m, synthesis::gravel_pictures, synthesis::gravel_sheet_m,
+    synthesis::lawn_pictures, synthesis::lawn_sheet_m, synthesis::paving_pictures, synthesis::paving_sheet_m,
+    synthesis::plant_small_trees;
 
 struct Cover {
   std::string name;

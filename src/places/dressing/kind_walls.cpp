@@ -7,15 +7,15 @@
 #include "base/colour.h"
 #include "places/dressing/brick_texture.h"
 #include "places/dressing/street_level_texture.h"
-#include "places/paper_city/wall_texture.h"
-#include "places/paper_city/window_texture.h"
+#include "synthesis/wall_texture.h"
+#include "synthesis/window_texture.h"
 
 namespace parvis::dressing {
 namespace {
 
-using city::Hood, city::Rect, city::SurfaceCanvas, city::Texel, city::Wall, city::WindowStyle, city::matt,
-    city::paint_wall, city::paint_window;
 using scene::BuildingEpoch, scene::BuildingUse, scene::WallFinish, scene::WallTint;
+using synthesis::Hood, synthesis::Rect, synthesis::SurfaceCanvas, synthesis::Texel, synthesis::Wall,
+    synthesis::WindowStyle, synthesis::matt, synthesis::paint_wall, synthesis::paint_window;
 
 constexpr float px_per_m = 88.0f;
 constexpr int texels = 4;  // widths of sheets are multiples of so many

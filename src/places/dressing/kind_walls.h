@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/random.h"
-#include "places/paper_city/surface_canvas.h"
 #include "scene/data/building_kind.h"
+#include "synthesis/surface_canvas.h"
 
 namespace parvis::dressing {
 
@@ -58,7 +58,7 @@ ChosenWall chosen_wall(const scene::BuildingKind& kind, Random& random);
 
 /// A painted sheet; in_colour (brick_texture.h) gives its picture a colour divided by `painted`.
 struct KindPictures {
-  city::SurfacePictures pictures;
+  synthesis::SurfacePictures pictures;
   glm::vec3 painted;  ///< linear
 };
 /// Paints a sheet of a look, the same one each time.

@@ -10,14 +10,14 @@
 #include "places/dressing/cone_tiles.h"
 #include "places/dressing/model_triangles.h"
 #include "places/dressing/roof_details.h"
-#include "places/paper_city/ground_texture.h"
-#include "places/paper_city/trim_texture.h"
+#include "synthesis/ground_texture.h"
+#include "synthesis/trim_texture.h"
 
 namespace parvis::dressing {
 namespace {
 
-using city::SurfacePictures, city::gravel_pictures, city::gravel_sheet_m, city::roof_sheet_m,
-    city::roof_tile_pictures;
+using synthesis::SurfacePictures, synthesis::gravel_pictures, synthesis::gravel_sheet_m,
+    synthesis::roof_sheet_m, synthesis::roof_tile_pictures;
 
 struct Tint {
   float share;  ///< of roofs that have this one or an earlier one

@@ -5,14 +5,14 @@
 
 #include "base/colour.h"
 #include "places/dressing/brick_texture.h"
-#include "places/paper_city/shop_texture.h"
-#include "places/paper_city/window_texture.h"
+#include "synthesis/shop_texture.h"
+#include "synthesis/window_texture.h"
 
 namespace parvis::dressing {
 namespace {
 
-using city::Rect, city::SurfaceCanvas, city::Texel, city::WindowStyle, city::matt, city::paint_glass,
-    city::paint_shop_display, city::paint_window;
+using synthesis::Rect, synthesis::SurfaceCanvas, synthesis::Texel, synthesis::WindowStyle, synthesis::matt,
+    synthesis::paint_glass, synthesis::paint_shop_display, synthesis::paint_window;
 
 constexpr float door_m = 1.0f, leaf_m = 2.1f, doorway_m = 2.5f;  // width; heights of its leaf and its light
 constexpr float plinth_m = 0.32f;

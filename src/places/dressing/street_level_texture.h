@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "base/random.h"
-#include "places/paper_city/surface_canvas.h"
-#include "places/paper_city/window_texture.h"
+#include "synthesis/surface_canvas.h"
+#include "synthesis/window_texture.h"
 
 namespace parvis::dressing {
 
@@ -22,16 +22,16 @@ inline constexpr int small_window_bay = 3;
 
 /// How the street level of houses of one time looks.
 struct StreetLook {
-  city::WindowStyle window;
+  synthesis::WindowStyle window;
   glm::vec3 door;            ///< linear
   bool has_lintels = false;  ///< of bricks, over doors and windows
 };
 
 /// Paints a band of houses with a door in each `door_bay`, and above it one of shops, over a wall that covers
 /// the canvas.
-void paint_street_level(city::SurfaceCanvas& canvas, const StreetLook& look, Random& random);
+void paint_street_level(synthesis::SurfaceCanvas& canvas, const StreetLook& look, Random& random);
 
 /// Paints all bands over a wall that covers the canvas.
-void paint_street_level(city::SurfaceCanvas& canvas, Random& random);
+void paint_street_level(synthesis::SurfaceCanvas& canvas, Random& random);
 
 }  // namespace parvis::dressing

@@ -8,7 +8,7 @@
 
 namespace parvis::dressing {
 
-/// The look of a terrain; each surface is one of city::ground_covers().
+/// The look of a terrain; each surface is one of ground_covers().
 struct TerrainLook {
   std::string surface = "paving";  ///< near buildings
   std::string beyond = "lawn";     ///< elsewhere

@@ -7,14 +7,14 @@
 #include "formats/meshes/simplification.h"
 #include "places/paper_city/car.h"
 #include "places/paper_city/night_lights.h"
-#include "places/paper_city/round_mesh.h"
-#include "places/paper_city/tree.h"
+#include "synthesis/round_mesh.h"
+#include "synthesis/tree.h"
 
 namespace parvis::kerbside {
 namespace {
 
-using city::Outline, city::panelled_box, city::smooth, city::tube, city::turned;
 using glm::vec3;
+using synthesis::Outline, synthesis::panelled_box, synthesis::smooth, synthesis::tube, synthesis::turned;
 
 constexpr int tree_shapes = 5;
 // A car of so few triangles looks the same from 3 m on: of a wheel's outline 16 segments leave out 6 mm.
@@ -115,7 +115,7 @@ StreetModels street_trees(float height_m, std::uint64_t seed) {
   StreetModels models;
   for (int i = 0; i < tree_shapes; ++i)
     models.push_back(
-        {std::make_shared<scene::Model>(city::make_medium_tree(height_m, seed + std::uint64_t(i)))});
+        {std::make_shared<scene::Model>(synthesis::make_medium_tree(height_m, seed + std::uint64_t(i)))});
   return models;
 }
 

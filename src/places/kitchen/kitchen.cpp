@@ -10,7 +10,7 @@
 #include "places/kitchen/kitchen_room.h"
 #include "places/kitchen/kitchen_script.h"
 #include "places/kitchen/kitchen_things.h"
-#include "places/paper_city/writing_jobs.h"
+#include "synthesis/writing_jobs.h"
 
 namespace parvis::kitchen {
 namespace {
@@ -33,7 +33,7 @@ scene::Model make_kitchen(std::uint64_t seed) {
 }
 
 Status write_kitchen(const fs::path& folder, std::uint64_t seed) {
-  std::vector<city::WritingJob> jobs;
+  std::vector<synthesis::WritingJob> jobs;
   jobs.push_back(
       [=](const fs::path& to) { return scene::write_gltf(to / "kitchen.glb", make_kitchen(seed)); });
   jobs.push_back(
@@ -51,7 +51,7 @@ Status write_kitchen(const fs::path& folder, std::uint64_t seed) {
     jobs.push_back([model = std::move(mirror.model)](const fs::path& to) {
       return scene::write_gltf(to / (model.name + ".glb"), model);
     });
-  return city::write_together(jobs, folder);
+  return synthesis::write_together(jobs, folder);
 }
 
 }  // namespace parvis::kitchen

@@ -4,12 +4,13 @@
 #include "places/kitchen/kitchen_materials.h"
 #include "places/kitchen/kitchen_room.h"
 #include "places/kitchen/kitchen_things.h"
-#include "places/paper_city/round_mesh.h"
+#include "synthesis/round_mesh.h"
 
 namespace parvis::kitchen {
 namespace {
 
-using city::Outline, city::smooth, city::turned, city::tube, city::panel, city::panelled_box;
+using synthesis::Outline, synthesis::smooth, synthesis::turned, synthesis::tube, synthesis::panel,
+    synthesis::panelled_box;
 
 using enum KitchenMaterial;
 
@@ -25,7 +26,7 @@ void add_turned(scene::Model& model, const char* name, const Outline& outline, K
 
 void add_handle(scene::Model& model, glm::vec3 foot, float radius, float low, float high, float heading,
                 KitchenMaterial material) {
-  std::vector<city::TubeRing> rings;
+  std::vector<synthesis::TubeRing> rings;
   for (int i = 0; i <= 12; ++i) {
     const float angle = 3.14159265f * float(i) / 12.0f;
     const float z = 0.5f * (low + high) - 0.5f * (high - low) * std::cos(angle);
@@ -96,7 +97,7 @@ void add_pot(scene::Model& model, glm::vec3 foot) {
   for (int i = 0; i < 4; ++i) {
     const float heading = 1.7f * float(i) + 0.4f, lean = 0.05f + 0.02f * float(i % 2);
     const glm::vec3 out(std::cos(heading), std::sin(heading), 0.0f);
-    std::vector<city::TubeRing> rings;
+    std::vector<synthesis::TubeRing> rings;
     for (int k = 0; k <= 14; ++k) {
       const float share = float(k) / 14.0f;
       const float radius =

@@ -4,12 +4,12 @@
 #include "places/kitchen/kitchen_materials.h"
 #include "places/kitchen/kitchen_room.h"
 #include "places/kitchen/kitchen_things.h"
-#include "places/paper_city/round_mesh.h"
+#include "synthesis/round_mesh.h"
 
 namespace parvis::kitchen {
 namespace {
 
-using city::Outline, city::smooth, city::turned, city::tube;
+using synthesis::Outline, synthesis::smooth, synthesis::turned, synthesis::tube;
 
 using enum KitchenMaterial;
 
@@ -52,7 +52,7 @@ const Outline lemon_outline{{0.0f, -0.046f}, {0.006f, -0.042f}, {0.017f, -0.03f}
                             {0.02f, 0.027f}, {0.008f, 0.038f},  {0.0f, 0.042f}};
 
 void add_banana(scene::Model& model, glm::vec3 foot, float heading, float lean) {
-  std::vector<city::TubeRing> rings;
+  std::vector<synthesis::TubeRing> rings;
   constexpr int count = 16;
   constexpr float curve_radius_m = 0.11f;
   for (int i = 0; i <= count; ++i) {

@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "places/kitchen/kitchen_room.h"
-#include "places/paper_city/round_mesh.h"
+#include "synthesis/round_mesh.h"
 
 namespace parvis::kitchen {
 namespace {
 
-using city::Outline, city::turned;
+using synthesis::Outline, synthesis::turned;
 
 constexpr int glass_rings = 48, glass_sides = 96;  // the ray tracer follows the facets
 

@@ -5,7 +5,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "base/colour.h"
-#include "places/paper_city/sky_picture.h"
+#include "synthesis/sky_picture.h"
 
 namespace parvis::kitchen {
 namespace {
@@ -72,7 +72,7 @@ ImageF room_light_picture(int width_px) {
 
 Image8 window_view_picture(std::uint64_t seed) {
   // From the hillside: 60 degrees of the sky picture to either side of the west.
-  const ImageF sky = city::sky_picture(3 * view_px, glm::vec3(-0.88f, -0.14f, 0.45f), seed);
+  const ImageF sky = synthesis::sky_picture(3 * view_px, glm::vec3(-0.88f, -0.14f, 0.45f), seed);
   ImageF view(view_px, view_px, 3);
   for (int y = 0; y < view_px; ++y)
     for (int x = 0; x < view_px; ++x) {

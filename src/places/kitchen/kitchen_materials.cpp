@@ -17,7 +17,7 @@ struct Sheet {
   KitchenMaterial material;
   const char* name;
   glm::vec2 size_m;  ///< that the picture covers; 0: it covers the part's own coordinates once
-  std::function<city::SurfacePictures(std::uint32_t seed)> paint;
+  std::function<synthesis::SurfacePictures(std::uint32_t seed)> paint;
 };
 
 std::vector<Sheet> sheets() {
@@ -94,7 +94,7 @@ int add_texture(scene::Model& model, std::string name, Image8 image, bool is_srg
 void add_kitchen_materials(scene::Model& model, std::uint64_t seed) {
   model.materials = all_materials();
   const std::vector<Sheet> all = sheets();
-  std::vector<city::SurfacePictures> painted(all.size());
+  std::vector<synthesis::SurfacePictures> painted(all.size());
   parallel_for(all.size(), [&](std::size_t i) { painted[i] = all[i].paint(std::uint32_t(seed * 97 + i)); });
   for (std::size_t i = 0; i < all.size(); ++i) {
     scene::Material& m = model.materials[std::size_t(all[i].material)];

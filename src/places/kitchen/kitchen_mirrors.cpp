@@ -5,12 +5,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "places/kitchen/kitchen_room.h"
-#include "places/paper_city/round_mesh.h"
+#include "synthesis/round_mesh.h"
 
 namespace parvis::kitchen {
 namespace {
 
-using city::Outline, city::smooth, city::turned, city::tube;
+using synthesis::Outline, synthesis::smooth, synthesis::turned, synthesis::tube;
 
 constexpr int mirror_sides = 64, mirror_parts = 6;
 enum Surface : int { polished, black_handle, clear, brushed };
@@ -50,7 +50,7 @@ void add_turned(scene::Model& model, const char* name, const Outline& outline, S
 
 /// A bar that leaves a pan's wall and rises a little.
 void add_handle(scene::Model& model, float radius, float height, float length) {
-  std::vector<city::TubeRing> rings;
+  std::vector<synthesis::TubeRing> rings;
   for (int i = 0; i <= 10; ++i) {
     const float share = float(i) / 10.0f;
     rings.push_back({{radius - 0.002f + length * share, 0.0f, height + 0.03f * share * share},
@@ -85,7 +85,7 @@ scene::Model kettle() {
       polished, aslant);
   add(model, "spout inside", turned({{0.0122f, 0.084f}, {0.009f, 0.06f}, {0.0f, 0.058f}}, 24), black_handle,
       aslant);
-  std::vector<city::TubeRing> rings;
+  std::vector<synthesis::TubeRing> rings;
   for (int i = 0; i <= 20; ++i) {
     const float angle = 3.14159265f * float(i) / 20.0f;
     rings.push_back(
@@ -183,7 +183,7 @@ Mesh spoon_dish(bool is_back) {
 scene::Model spoon(const char* name, bool is_turned_over) {
   scene::Model model = model_of(name);
   const float up = is_turned_over ? -1.0f : 1.0f;
-  std::vector<city::TubeRing> rings;
+  std::vector<synthesis::TubeRing> rings;
   for (int i = 0; i <= 14; ++i) {
     const float share = float(i) / 14.0f;
     rings.push_back(

@@ -5,12 +5,12 @@
 
 #include "places/kitchen/kitchen_light.h"
 #include "places/kitchen/kitchen_materials.h"
-#include "places/paper_city/round_mesh.h"
+#include "synthesis/round_mesh.h"
 
 namespace parvis::kitchen {
 namespace {
 
-using city::smooth, city::turned, city::panel, city::panelled_box;
+using synthesis::smooth, synthesis::turned, synthesis::panel, synthesis::panelled_box;
 
 using enum KitchenMaterial;
 

@@ -6,13 +6,13 @@
 
 #include "base/colour.h"
 #include "places/kitchen/kitchen_materials.h"
-#include "places/paper_city/noise.h"
+#include "synthesis/noise.h"
 
 namespace parvis::kitchen {
 namespace {
 
-using city::fractal_noise, city::lattice_value, city::nearest_cell, city::Cell, city::Texel,
-    city::SurfacePictures, city::SurfaceCanvas;
+using synthesis::fractal_noise, synthesis::lattice_value, synthesis::nearest_cell, synthesis::Cell,
+    synthesis::Texel, synthesis::SurfacePictures, synthesis::SurfaceCanvas;
 
 constexpr float tile_m = 0.1f, joint_m = 0.0022f;
 

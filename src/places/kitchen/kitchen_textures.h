@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "places/paper_city/surface_canvas.h"
+#include "synthesis/surface_canvas.h"
 
 namespace parvis::kitchen {
 
@@ -11,17 +11,17 @@ namespace parvis::kitchen {
 inline constexpr float floor_sheet_m = 1.2f, front_sheet_m = 0.6f, wood_sheet_m = 0.6f, cloth_sheet_m = 0.24f;
 
 /// The tiled wall behind the worktop, as one sheet of 3.6 m x 0.6 m.
-city::SurfacePictures wall_tile_pictures(std::uint32_t seed);
-city::SurfacePictures floor_pictures(std::uint32_t seed);    ///< dark and light tiles in a checkerboard
-city::SurfacePictures worktop_pictures(std::uint32_t seed);  ///< terrazzo; one sheet of 3.6 m x 0.66 m
-city::SurfacePictures front_pictures(std::uint32_t seed);    ///< painted fronts of cupboards, brushed
-city::SurfacePictures wood_pictures(std::uint32_t seed);     ///< grain along x
-city::SurfacePictures cloth_pictures(std::uint32_t seed);    ///< white with red checks
+synthesis::SurfacePictures wall_tile_pictures(std::uint32_t seed);
+synthesis::SurfacePictures floor_pictures(std::uint32_t seed);    ///< dark and light tiles in a checkerboard
+synthesis::SurfacePictures worktop_pictures(std::uint32_t seed);  ///< terrazzo; one sheet of 3.6 m x 0.66 m
+synthesis::SurfacePictures front_pictures(std::uint32_t seed);    ///< painted fronts of cupboards, brushed
+synthesis::SurfacePictures wood_pictures(std::uint32_t seed);     ///< grain along x
+synthesis::SurfacePictures cloth_pictures(std::uint32_t seed);    ///< white with red checks
 /// Skin of an orange: u once around, v from the top down.
-city::SurfacePictures orange_pictures(std::uint32_t seed);
-city::SurfacePictures apple_pictures(std::uint32_t seed);  ///< red and yellow; layout of orange_pictures
+synthesis::SurfacePictures orange_pictures(std::uint32_t seed);
+synthesis::SurfacePictures apple_pictures(std::uint32_t seed);  ///< red and yellow; layout of orange_pictures
 /// Yellow with brown spots, green toward the ends.
-city::SurfacePictures banana_pictures(std::uint32_t seed);
+synthesis::SurfacePictures banana_pictures(std::uint32_t seed);
 
 /// A contact shadow: black, with alpha fading from the centre outward; for objects that stand on a surface.
 Image8 shade_picture();

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "places/paper_city/shop_texture.h"
-#include "places/paper_city/trim_texture.h"
+#include "synthesis/shop_texture.h"
+#include "synthesis/trim_texture.h"
 
 namespace parvis::city {
 namespace {
@@ -34,10 +34,12 @@ void wall_quad(CityMesh& mesh, CityMaterial material, const Frame& f, float x0, 
 
 void add_facade(CityMesh& mesh, const Building& b, int face_index) {
   const Face& face = b.faces[std::size_t(face_index)];
-  const int shops = (b.shop_strip + face_index) % shop_strips;  // no two sides of a corner are alike
-  const glm::vec2 strip = ground_floor_strip(b.has_shops ? shops : house_strip);
-  const float first = float(b.module_offset + 2 * face_index) / float(shop_modules);
-  const float modules = float(modules_along(face.width_m, shop_module_m)) / float(shop_modules);
+  const int shops =
+      (b.shop_strip + face_index) % synthesis::shop_strips;  // no two sides of a corner are alike
+  const glm::vec2 strip = synthesis::ground_floor_strip(b.has_shops ? shops : synthesis::house_strip);
+  const float first = float(b.module_offset + 2 * face_index) / float(synthesis::shop_modules);
+  const float modules =
+      float(modules_along(face.width_m, synthesis::shop_module_m)) / float(synthesis::shop_modules);
   wall_quad(mesh, CityMaterial::ground_floor, face.frame, 0, face.width_m, 0, b.ground_m, {first, strip.x},
             {first + modules, strip.y});
   const float left = float(b.bay_offset) / float(facade_bays);
@@ -56,7 +58,7 @@ void add_back_wall(CityMesh& mesh, const Building& b, glm::vec3 start, glm::vec3
 }
 
 Corner blank(const Frame& f, float x, float y, float z) {
-  return {f.point(x, y, z), glm::vec2(y, -z) / blank_wall_sheet_m};
+  return {f.point(x, y, z), glm::vec2(y, -z) / synthesis::blank_wall_sheet_m};
 }
 
 /// The cornice of a face: its underside and front, mitred where faces meet (`left`, `right`: how far its ends
@@ -64,8 +66,9 @@ Corner blank(const Frame& f, float x, float y, float z) {
 void add_cornice(CityMesh& mesh, const Building& b, const Face& face, float left, float right) {
   const Frame& f = face.frame;
   const float out = -b.overhang_m, low = b.eaves_m(), high = low + b.cornice_m, w = face.width_m;
-  const float x0 = left * out, x1 = w - right * out, u = w / trim_sheet_m;
-  const glm::vec2 soffit = trim_strip(Trim::soffit), cornice = trim_strip(Trim::cornice);
+  const float x0 = left * out, x1 = w - right * out, u = w / synthesis::trim_sheet_m;
+  const glm::vec2 soffit = synthesis::trim_strip(synthesis::Trim::soffit),
+                  cornice = synthesis::trim_strip(synthesis::Trim::cornice);
   mesh.quad(CityMaterial::trim, {f.point(x0, out, low), {0, soffit.y}}, {f.point(0, 0, low), {0, soffit.x}},
             {f.point(w, 0, low), {u, soffit.x}}, {f.point(x1, out, low), {u, soffit.y}});
   mesh.quad(CityMaterial::trim, f.point(x0, out, low), f.point(x1, out, low), f.point(x1, out, high),
@@ -74,7 +77,7 @@ void add_cornice(CityMesh& mesh, const Building& b, const Face& face, float left
 
 /// Texture coordinates of roofs: courses run along the eaves, `up_m` is measured on the slope.
 Corner roof_corner(glm::vec3 position, float along_m, float up_m) {
-  return {position, glm::vec2(along_m, -up_m) / roof_sheet_m};
+  return {position, glm::vec2(along_m, -up_m) / synthesis::roof_sheet_m};
 }
 
 void add_row_roof(CityMesh& mesh, const Building& b) {
@@ -155,11 +158,11 @@ void add_corner_dormer(CityMesh& mesh, const Building& b) {
     return glm::mix(-b.overhang_m, corner_knee_inset_m, (z - eaves) / b.roof_rise_m);
   };
   const float y = depth_at(low), y_high = depth_at(high), y_peak = depth_at(peak);
-  const glm::vec2 v = trim_strip(Trim::dormer);
-  const float u = dormer_module_m / trim_sheet_m;
+  const glm::vec2 v = synthesis::trim_strip(synthesis::Trim::dormer);
+  const float u = synthesis::dormer_module_m / synthesis::trim_sheet_m;
   mesh.quad(CityMaterial::trim, f.point(x0, y, low), f.point(x1, y, low), f.point(x1, y, high),
             f.point(x0, y, high), {0.0f, v.x}, {u, v.y});
-  const glm::vec2 stone = trim_strip(Trim::slab);
+  const glm::vec2 stone = synthesis::trim_strip(synthesis::Trim::slab);
   mesh.triangle(CityMaterial::trim, {f.point(x0, y, high), {0, stone.x}},
                 {f.point(x1, y, high), {u, stone.x}}, {f.point(middle, y, peak), {0.5f * u, stone.y}});
   const CityMaterial zinc = CityMaterial::roof_zinc;
@@ -239,9 +242,10 @@ Building plan_building(const Plot& plot, const Building* neighbour, float distan
   b.upper_floors = std::min(b.upper_floors, 5);
   b.ground_m = random.uniform(4.2f, 4.8f), b.floor_m = random.uniform(3.2f, 3.55f);
   b.has_shops = random.chance(plot.is_corner ? 0.95f : is_central ? 0.72f : 0.4f);
-  b.shop_strip = neighbour ? (neighbour->shop_strip + 1 + random.index(shop_strips - 1)) % shop_strips
-                           : random.index(shop_strips);
-  b.module_offset = random.index(shop_modules), b.bay_offset = random.index(facade_bays);
+  b.shop_strip = neighbour ? (neighbour->shop_strip + 1 + random.index(synthesis::shop_strips - 1)) %
+                                 synthesis::shop_strips
+                           : random.index(synthesis::shop_strips);
+  b.module_offset = random.index(synthesis::shop_modules), b.bay_offset = random.index(facade_bays);
   b.roof = plot.is_corner ? Roof::mansard : choose_roof(random);
   b.cornice_m = random.uniform(0.4f, 0.65f), b.overhang_m = random.uniform(0.4f, 0.6f);
   b.roof_rise_m = b.roof == Roof::gable ? random.uniform(2.0f, 3.2f) : random.uniform(2.6f, 3.3f);

@@ -9,8 +9,8 @@
 #include "base/content_hash.h"
 #include "formats/meshes/wheel.h"
 #include "places/paper_city/car_body.h"
-#include "places/paper_city/lettering.h"
-#include "places/paper_city/window_texture.h"
+#include "synthesis/lettering.h"
+#include "synthesis/window_texture.h"
 
 namespace parvis::city {
 namespace {
@@ -48,11 +48,11 @@ Image8 shadow_picture() {
 }
 
 Image8 plate_picture(std::string_view text) {
-  SurfaceCanvas canvas(256, 56, 0.52f, 0.11f, matt(glm::vec3(0.62f), 0.0f, 0.4f));
-  canvas.fill({0.0f, 0.0f, 0.045f, 0.11f}, matt(glm::vec3(0.01f, 0.05f, 0.4f), 0.0f, 0.4f));
-  const float height = 0.05f, width = lettering_width(text, height);
-  paint_lettering(canvas, text, 0.045f + 0.5f * (0.475f - width), 0.02f, height,
-                  matt(glm::vec3(0.01f), 0.0f, 0.4f));
+  synthesis::SurfaceCanvas canvas(256, 56, 0.52f, 0.11f, synthesis::matt(glm::vec3(0.62f), 0.0f, 0.4f));
+  canvas.fill({0.0f, 0.0f, 0.045f, 0.11f}, synthesis::matt(glm::vec3(0.01f, 0.05f, 0.4f), 0.0f, 0.4f));
+  const float height = 0.05f, width = synthesis::lettering_width(text, height);
+  synthesis::paint_lettering(canvas, text, 0.045f + 0.5f * (0.475f - width), 0.02f, height,
+                             synthesis::matt(glm::vec3(0.01f), 0.0f, 0.4f));
   return canvas.pictures(1, 1).colour;
 }
 

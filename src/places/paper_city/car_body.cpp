@@ -187,7 +187,7 @@ class BodyMesher {
   using Key = std::pair<CarSurface, std::array<float, 6>>;
 
   const CarShape& shape_;
-  SplineSurface surface_;
+  synthesis::SplineSurface surface_;
   std::vector<float> u_, v_;
   CarMeshes meshes_;
   std::map<Key, std::uint32_t> vertices_;
@@ -195,13 +195,13 @@ class BodyMesher {
 
 }  // namespace
 
-SplineSurface body_surface(const CarShape& shape) {
+synthesis::SplineSurface body_surface(const CarShape& shape) {
   std::vector<glm::vec3> points;
   for (const BodySection& section : shape.sections) {
     const std::vector<glm::vec3> column = section_points(section);
     points.insert(points.end(), column.begin(), column.end());
   }
-  return SplineSurface(int(shape.sections.size()), body_rows, std::move(points));
+  return synthesis::SplineSurface(int(shape.sections.size()), body_rows, std::move(points));
 }
 
 CarMeshes body_meshes(const CarShape& shape) { return BodyMesher(shape).meshes(); }

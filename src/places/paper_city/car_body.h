@@ -5,7 +5,7 @@
 
 #include "base/mesh.h"
 #include "places/paper_city/car_shape.h"
-#include "places/paper_city/spline_surface.h"
+#include "synthesis/spline_surface.h"
 
 namespace parvis::city {
 
@@ -13,7 +13,7 @@ namespace parvis::city {
 using CarMeshes = std::array<Mesh, std::size_t(CarSurface::count)>;
 
 /// The spline surface of one side of the body, with the sections as columns of its control net.
-SplineSurface body_surface(const CarShape& shape);
+synthesis::SplineSurface body_surface(const CarShape& shape);
 
 /// The complete body with wheel arches and underside; closed except for seams between its surfaces.
 CarMeshes body_meshes(const CarShape& shape);

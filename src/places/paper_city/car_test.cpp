@@ -58,7 +58,7 @@ TEST(Cars, BodiesAreSymmetric) {
 
 TEST(Cars, NormalsPointOutOfTheBody) {
   for (const CarShape& shape : shapes()) {
-    const SplineSurface surface = body_surface(shape);
+    const synthesis::SplineSurface surface = body_surface(shape);
     for (float u = 0.05f; u < surface.end_u(); u += 0.35f)
       for (float v = 0.5f; v < surface.end_v(); v += 0.45f) {
         const glm::vec3 p = surface.position(u, v), n = surface.normal(u, v);
@@ -70,7 +70,7 @@ TEST(Cars, NormalsPointOutOfTheBody) {
 
 TEST(SplineSurface, IsSmoothAcrossTheMiddle) {
   for (const CarShape& shape : shapes()) {
-    const SplineSurface surface = body_surface(shape);
+    const synthesis::SplineSurface surface = body_surface(shape);
     for (float u = 1.0f; u < surface.end_u() - 1.0f; u += 0.5f) {
       EXPECT_NEAR(surface.position(u, surface.end_v()).y, 0.0f, 1e-5f);
       EXPECT_NEAR(surface.normal(u, surface.end_v()).y, 0.0f, 1e-4f);

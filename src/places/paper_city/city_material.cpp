@@ -6,17 +6,17 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "places/paper_city/ground_texture.h"
-#include "places/paper_city/shop_texture.h"
 #include "places/paper_city/street_plan.h"
-#include "places/paper_city/trim_texture.h"
+#include "synthesis/ground_texture.h"
+#include "synthesis/shop_texture.h"
+#include "synthesis/trim_texture.h"
 
 namespace parvis::city {
 namespace {
 
 struct Sheet {
   std::string name;
-  std::function<SurfacePictures(std::uint32_t seed)> paint;
+  std::function<synthesis::SurfacePictures(std::uint32_t seed)> paint;
 };
 
 /// All sheets in the order of `first_texture` below.
@@ -25,26 +25,26 @@ std::vector<Sheet> all_sheets() {
   for (const FacadeStyle& style : facade_styles())
     sheets.push_back({style.name, [&style](std::uint32_t seed) { return facade_pictures(style, seed); }});
   const auto road = [](float width_m, bool parking) {
-    return [=](std::uint32_t seed) { return road_pictures(width_m, parking, seed); };
+    return [=](std::uint32_t seed) { return synthesis::road_pictures(width_m, parking, seed); };
   };
   const auto zebra = [](float width_m) {
-    return [=](std::uint32_t seed) { return zebra_pictures(width_m, seed); };
+    return [=](std::uint32_t seed) { return synthesis::zebra_pictures(width_m, seed); };
   };
-  sheets.push_back({"ground_floor", ground_floor_pictures});
-  sheets.push_back({"trim", trim_pictures});
-  sheets.push_back({"roof_tile", roof_tile_pictures});
-  sheets.push_back({"roof_zinc", roof_zinc_pictures});
-  sheets.push_back({"blank_wall", blank_wall_pictures});
-  sheets.push_back({"railing", [](std::uint32_t) { return railing_pictures(); }});
+  sheets.push_back({"ground_floor", synthesis::ground_floor_pictures});
+  sheets.push_back({"trim", synthesis::trim_pictures});
+  sheets.push_back({"roof_tile", synthesis::roof_tile_pictures});
+  sheets.push_back({"roof_zinc", synthesis::roof_zinc_pictures});
+  sheets.push_back({"blank_wall", synthesis::blank_wall_pictures});
+  sheets.push_back({"railing", [](std::uint32_t) { return synthesis::railing_pictures(); }});
   sheets.push_back({"road_wide", road(wide_road.carriageway_m, true)});
   sheets.push_back({"road_narrow", road(narrow_road.carriageway_m, false)});
   sheets.push_back({"zebra_wide", zebra(wide_road.carriageway_m)});
   sheets.push_back({"zebra_narrow", zebra(narrow_road.carriageway_m)});
-  sheets.push_back({"asphalt", asphalt_pictures});
-  sheets.push_back({"paving", paving_pictures});
-  sheets.push_back({"lawn", lawn_pictures});
-  sheets.push_back({"gravel", gravel_pictures});
-  sheets.push_back({"courtyard", courtyard_pictures});
+  sheets.push_back({"asphalt", synthesis::asphalt_pictures});
+  sheets.push_back({"paving", synthesis::paving_pictures});
+  sheets.push_back({"lawn", synthesis::lawn_pictures});
+  sheets.push_back({"gravel", synthesis::gravel_pictures});
+  sheets.push_back({"courtyard", synthesis::courtyard_pictures});
   return sheets;
 }
 
@@ -65,7 +65,7 @@ scene::Material material(std::string name, int sheet, glm::vec3 tint = glm::vec3
 
 /// The same, of a sheet with windows.
 scene::Material recessed(scene::Material m) {
-  m.relief_m = canvas_relief_m;
+  m.relief_m = synthesis::canvas_relief_m;
   return m;
 }
 
@@ -117,7 +117,7 @@ void add_city_materials(scene::Model& model, std::uint64_t seed) {
   Random random(seed, 11);
   std::vector<std::uint32_t> seeds(sheets.size());
   for (std::uint32_t& sheet_seed : seeds) sheet_seed = random.next();
-  std::vector<SurfacePictures> painted(sheets.size());
+  std::vector<synthesis::SurfacePictures> painted(sheets.size());
   parallel_for(sheets.size(), [&](std::size_t i) { painted[i] = sheets[i].paint(seeds[i]); });
   for (std::size_t i = 0; i < sheets.size(); ++i) {
     model.textures.push_back(texture(sheets[i].name, std::move(painted[i].colour), true));

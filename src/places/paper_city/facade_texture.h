@@ -6,17 +6,17 @@
 #include <cstdint>
 #include <string>
 
-#include "places/paper_city/wall_texture.h"
-#include "places/paper_city/window_texture.h"
+#include "synthesis/wall_texture.h"
+#include "synthesis/window_texture.h"
 
 namespace parvis::city {
 
 /// Wall, windows and ornament of a facade.
 struct FacadeStyle {
   std::string name;
-  Wall wall = Wall::plaster;
+  synthesis::Wall wall = synthesis::Wall::plaster;
   glm::vec3 wall_colour{0.5f};  ///< linear
-  WindowStyle window;
+  synthesis::WindowStyle window;
   bool has_string_course = true;
   bool has_quoined_piers = false;  ///< strips of stone between every two bays
 };
@@ -30,8 +30,8 @@ inline constexpr float facade_bay_m = 3.2f,
 const std::array<FacadeStyle, facade_style_count>& facade_styles();
 
 /// The painted sheet of a style.
-SurfaceCanvas facade_canvas(const FacadeStyle& style, std::uint32_t seed);
+synthesis::SurfaceCanvas facade_canvas(const FacadeStyle& style, std::uint32_t seed);
 /// Its textures.
-SurfacePictures facade_pictures(const FacadeStyle& style, std::uint32_t seed);
+synthesis::SurfacePictures facade_pictures(const FacadeStyle& style, std::uint32_t seed);
 
 }  // namespace parvis::city

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "places/paper_city/ground_texture.h"
 #include "places/paper_city/street_furniture.h"
+#include "synthesis/ground_texture.h"
 
 namespace parvis::city {
 namespace {
@@ -53,7 +53,7 @@ glm::vec2 kerb_corner(const Block& block, int i) {
 }
 
 void add_kerb(CityMesh& mesh, glm::vec2 a, glm::vec2 b) {
-  const float length = glm::length(b - a) / paving_sheet_m;
+  const float length = glm::length(b - a) / synthesis::paving_sheet_m;
   mesh.quad(CityMaterial::paving, glm::vec3(a, 0), glm::vec3(b, 0), glm::vec3(b, kerb_m),
             glm::vec3(a, kerb_m), {0.0f, 0.02f}, {length, 0.0f});
 }
@@ -69,12 +69,13 @@ void add_pavement(CityMesh& mesh, const Block& block, int side) {
   const glm::vec2 inner_end = block.corner(side + 1) - (corner_after ? cut : 0.0f) * along;
   const auto arc = kerb_arc(kerb_corner(block, side + 1), along, next);
   const glm::vec2 end = corner_after ? arc[0] : kerb_corner(block, side + 1);
-  add_flat(mesh, CityMaterial::paving, {start, end, inner_end, inner_start}, kerb_m, paving_sheet_m);
+  add_flat(mesh, CityMaterial::paving, {start, end, inner_end, inner_start}, kerb_m,
+           synthesis::paving_sheet_m);
   add_kerb(mesh, start, end);
   if (!corner_after) return;
   std::vector<glm::vec2> outline{inner_end, arc[0], arc[1], arc[2]};
   if (cut > 0.0f) outline.push_back(block.corner(side + 1) + cut * next);
-  add_flat(mesh, CityMaterial::paving, outline, kerb_m, paving_sheet_m);
+  add_flat(mesh, CityMaterial::paving, outline, kerb_m, synthesis::paving_sheet_m);
   add_kerb(mesh, arc[0], arc[1]);
   add_kerb(mesh, arc[1], arc[2]);
 }
@@ -88,14 +89,15 @@ void add_park(CityMesh& mesh, const Block& block) {
   const std::array<float, 6> y{block.min.y,     block.min.y + walk, centre.y - walk,
                                centre.y + walk, block.max.y - walk, block.max.y};
   for (std::size_t row : {0, 2, 4})
-    add_rectangle(mesh, CityMaterial::gravel, {x[0], y[row]}, {x[5], y[row + 1]}, kerb_m, gravel_sheet_m);
+    add_rectangle(mesh, CityMaterial::gravel, {x[0], y[row]}, {x[5], y[row + 1]}, kerb_m,
+                  synthesis::gravel_sheet_m);
   for (std::size_t row : {1, 3}) {
     for (std::size_t column : {0, 2, 4})
       add_rectangle(mesh, CityMaterial::gravel, {x[column], y[row]}, {x[column + 1], y[row + 1]}, kerb_m,
-                    gravel_sheet_m);
+                    synthesis::gravel_sheet_m);
     for (std::size_t column : {1, 3})
       add_rectangle(mesh, CityMaterial::lawn, {x[column], y[row]}, {x[column + 1], y[row + 1]}, kerb_m,
-                    lawn_sheet_m);
+                    synthesis::lawn_sheet_m);
   }
 }
 
@@ -106,7 +108,7 @@ void add_block(CityMesh& mesh, const Block& block) {
   // Below the houses the ground ends, out of sight.
   const auto inset = [&](int side) { return block.roads[std::size_t(side)] ? 4.0f : 0.0f; };
   add_rectangle(mesh, CityMaterial::courtyard, block.min + glm::vec2(inset(west), inset(south)),
-                block.max - glm::vec2(inset(east), inset(north)), kerb_m, courtyard_sheet_m);
+                block.max - glm::vec2(inset(east), inset(north)), kerb_m, synthesis::courtyard_sheet_m);
 }
 
 /// A stretch of carriageway as a strip: `right` and `ahead` are unit vectors, u runs to the right, v
@@ -131,15 +133,17 @@ void add_road(CityMesh& mesh, const StreetPlan& plan, const Road& road) {
   const float width = road.profile.carriageway_m;
   float s = -city_half_m;
   const auto stretch = [&](float end) {
-    add_strip(mesh, surface, at(s), right, ahead, width, end - s, road_sheet_length_m);
+    add_strip(mesh, surface, at(s), right, ahead, width, end - s, synthesis::road_sheet_length_m);
   };
   for (const Road& other : plan.roads) {
     if (other.runs_north == road.runs_north) continue;
     const float begin = other.offset_m - crossing_reach(other), end = other.offset_m + crossing_reach(other);
-    stretch(begin - zebra_length_m);
-    add_strip(mesh, zebra, at(begin), -right, -ahead, width, zebra_length_m, zebra_length_m);
-    add_strip(mesh, zebra, at(end), right, ahead, width, zebra_length_m, zebra_length_m);
-    s = end + zebra_length_m;
+    stretch(begin - synthesis::zebra_length_m);
+    add_strip(mesh, zebra, at(begin), -right, -ahead, width, synthesis::zebra_length_m,
+              synthesis::zebra_length_m);
+    add_strip(mesh, zebra, at(end), right, ahead, width, synthesis::zebra_length_m,
+              synthesis::zebra_length_m);
+    s = end + synthesis::zebra_length_m;
   }
   stretch(city_half_m);
 }
@@ -162,7 +166,7 @@ void add_crossing(CityMesh& mesh, const Road& north_road, const Road& east_road)
       outline.insert(outline.end(), {north_kerb, round, east_kerb});
   }
   outline.push_back(outline[1]);
-  add_flat(mesh, CityMaterial::asphalt, outline, 0.0f, asphalt_sheet_m);
+  add_flat(mesh, CityMaterial::asphalt, outline, 0.0f, synthesis::asphalt_sheet_m);
 }
 
 /// All but the furniture.

@@ -10,9 +10,9 @@
 #include "places/paper_city/city_buildings.h"
 #include "places/paper_city/facade_texture.h"
 #include "places/paper_city/ground.h"
-#include "places/paper_city/shop_texture.h"
 #include "places/paper_city/street_furniture.h"
 #include "places/paper_city/street_plan.h"
+#include "synthesis/shop_texture.h"
 
 namespace parvis::city {
 namespace {
@@ -40,9 +40,9 @@ struct LitCell {
 void add_ground_floor(std::vector<LitCell>& cells, const Building& b, std::size_t face_index,
                       Random& random) {
   const Face& face = b.faces[face_index];
-  const int shops = (b.shop_strip + int(face_index)) % shop_strips;
-  const glm::vec2 strip = ground_floor_strip(b.has_shops ? shops : house_strip);
-  const int modules = modules_along(face.width_m, shop_module_m),
+  const int shops = (b.shop_strip + int(face_index)) % synthesis::shop_strips;
+  const glm::vec2 strip = synthesis::ground_floor_strip(b.has_shops ? shops : synthesis::house_strip);
+  const int modules = modules_along(face.width_m, synthesis::shop_module_m),
             first = b.module_offset + 2 * int(face_index);
   for (int i = 0; i < modules; ++i) {
     if (!random.chance(b.has_shops ? lit_shops_share : lit_windows_share)) continue;
@@ -53,8 +53,8 @@ void add_ground_floor(std::vector<LitCell>& cells, const Building& b, std::size_
                      step * float(i + 1),
                      0.0f,
                      b.ground_m,
-                     {float(first + i) / float(shop_modules), strip.x},
-                     {float(first + i + 1) / float(shop_modules), strip.y},
+                     {float(first + i) / float(synthesis::shop_modules), strip.x},
+                     {float(first + i + 1) / float(synthesis::shop_modules), strip.y},
                      b.has_shops,
                      0});
   }
@@ -102,8 +102,8 @@ void add_materials(scene::Model& model, std::uint64_t seed) {
   std::vector<Sheet> sheets(seeds.size());
   parallel_for(sheets.size(), [&](std::size_t i) {
     const bool is_ground = int(i) == shop_sheet;
-    const SurfaceCanvas canvas =
-        is_ground ? ground_floor_canvas(seeds[i]) : facade_canvas(facade_styles()[i], seeds[i]);
+    const synthesis::SurfaceCanvas canvas =
+        is_ground ? synthesis::ground_floor_canvas(seeds[i]) : facade_canvas(facade_styles()[i], seeds[i]);
     sheets[i] = {canvas.lit_glass(2), canvas.pictures(is_ground ? 4 : 2, 8).normal};
   });
   for (std::size_t i = 0; i < sheets.size(); ++i) {
@@ -116,7 +116,7 @@ void add_materials(scene::Model& model, std::uint64_t seed) {
       m.name = fmt::format("{}_{}", name, tint);
       m.base_colour = glm::vec3(0.04f), m.roughness = 0.06f;
       m.base_colour_texture = m.emission_texture = int(2 * i);
-      m.normal_texture = int(2 * i) + 1, m.relief_m = canvas_relief_m;
+      m.normal_texture = int(2 * i) + 1, m.relief_m = synthesis::canvas_relief_m;
       m.emission = int(i) == shop_sheet && tint == 0 ? shop_light : window_light[std::size_t(tint)];
       m.alpha_mode = scene::Alpha::cutout;
       model.materials.push_back(std::move(m));

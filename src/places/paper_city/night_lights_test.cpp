@@ -11,7 +11,7 @@ namespace parvis::city {
 namespace {
 
 TEST(NightLights, GlassAloneIsLit) {
-  const SurfaceCanvas canvas = facade_canvas(facade_styles()[0], 3);
+  const synthesis::SurfaceCanvas canvas = facade_canvas(facade_styles()[0], 3);
   const Image8 lit = canvas.lit_glass(4);
   const Image8 colour = canvas.pictures(4, 4).colour;
   ASSERT_EQ(4 * lit.width, colour.width);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "places/paper_city/trim_texture.h"
+#include "synthesis/trim_texture.h"
 
 namespace parvis::city {
 namespace {
@@ -47,14 +47,14 @@ void underside(CityMesh& mesh, CityMaterial m, const Box& b, glm::vec2 foot, glm
 struct StripUv {
   glm::vec2 foot, top;
 };
-StripUv strip_uv(Trim trim, float width_m) {
-  const glm::vec2 v = trim_strip(trim);
-  return {{0.0f, v.x}, {width_m / trim_sheet_m, v.y}};
+StripUv strip_uv(synthesis::Trim trim, float width_m) {
+  const glm::vec2 v = synthesis::trim_strip(trim);
+  return {{0.0f, v.x}, {width_m / synthesis::trim_sheet_m, v.y}};
 }
 
 void add_ledge(CityMesh& mesh, const Frame& f, const Ornament& o) {
   const Box box{f, o.x_m, o.x_m + o.width_m, -o.reach_m, 0.0f, o.z_m, o.z_m + 0.22f};
-  const StripUv uv = strip_uv(Trim::slab, o.width_m);
+  const StripUv uv = strip_uv(synthesis::Trim::slab, o.width_m);
   front(mesh, CityMaterial::trim, box, uv.foot, uv.top);
   underside(mesh, CityMaterial::trim, box, uv.foot, uv.top);
   lid(mesh, CityMaterial::trim, box, uv.foot, uv.top);
@@ -63,16 +63,17 @@ void add_ledge(CityMesh& mesh, const Frame& f, const Ornament& o) {
 void add_balcony(CityMesh& mesh, const Frame& f, const Ornament& o) {
   const float x1 = o.x_m + o.width_m;
   const Box slab{f, o.x_m, x1, -o.reach_m, 0.0f, o.z_m - 0.16f, o.z_m};
-  const StripUv edge = strip_uv(Trim::slab, o.width_m), end = strip_uv(Trim::slab, o.reach_m);
-  const StripUv soffit = strip_uv(Trim::soffit, o.width_m);
+  const StripUv edge = strip_uv(synthesis::Trim::slab, o.width_m),
+                end = strip_uv(synthesis::Trim::slab, o.reach_m);
+  const StripUv soffit = strip_uv(synthesis::Trim::soffit, o.width_m);
   front(mesh, CityMaterial::trim, slab, edge.foot, edge.top);
   left(mesh, CityMaterial::trim, slab, end.foot, end.top);
   right(mesh, CityMaterial::trim, slab, end.foot, end.top);
   underside(mesh, CityMaterial::trim, slab, soffit.foot, soffit.top);
   lid(mesh, CityMaterial::trim, slab, edge.foot, edge.top);
   const Box rail{f, o.x_m + 0.04f, x1 - 0.04f, 0.05f - o.reach_m, 0.0f, o.z_m, o.z_m + 1.0f};
-  const glm::vec2 foot(0.0f, 1.0f), top(o.width_m / railing_sheet_m, 0.0f),
-      end_top(o.reach_m / railing_sheet_m, 0.0f);
+  const glm::vec2 foot(0.0f, 1.0f), top(o.width_m / synthesis::railing_sheet_m, 0.0f),
+      end_top(o.reach_m / synthesis::railing_sheet_m, 0.0f);
   front(mesh, CityMaterial::railing, rail, foot, top);
   left(mesh, CityMaterial::railing, rail, foot, end_top);
   right(mesh, CityMaterial::railing, rail, foot, end_top);
@@ -81,8 +82,9 @@ void add_balcony(CityMesh& mesh, const Frame& f, const Ornament& o) {
 /// Sloping cloth with a hem that hangs down, and cheeks.
 void add_awning(CityMesh& mesh, const Frame& f, const Ornament& o) {
   const float x0 = o.x_m, x1 = o.x_m + o.width_m, out = -o.reach_m, top = o.z_m + 0.75f, low = o.z_m + 0.2f;
-  const glm::vec2 v = trim_strip(o.variant % 2 == 0 ? Trim::awning_red : Trim::awning_green);
-  const float u = o.width_m / trim_sheet_m, hem = glm::mix(v.x, v.y, 0.2f);
+  const glm::vec2 v =
+      synthesis::trim_strip(o.variant % 2 == 0 ? synthesis::Trim::awning_red : synthesis::Trim::awning_green);
+  const float u = o.width_m / synthesis::trim_sheet_m, hem = glm::mix(v.x, v.y, 0.2f);
   const CityMaterial m = CityMaterial::cloth;
   mesh.quad(m, f.point(x0, out, low), f.point(x1, out, low), f.point(x1, 0, top), f.point(x0, 0, top),
             {0, hem}, {u, v.y});
@@ -96,10 +98,10 @@ void add_awning(CityMesh& mesh, const Frame& f, const Ornament& o) {
 /// A board that stands out from the wall, seen from both sides.
 void add_sign(CityMesh& mesh, const Frame& f, const Ornament& o) {
   const Box box{f, o.x_m, o.x_m, -o.reach_m, -0.12f, o.z_m, o.z_m + 0.8f};
-  const glm::vec2 v = trim_strip(o.variant % 3 == 0   ? Trim::metal
-                                 : o.variant % 3 == 1 ? Trim::awning_red
-                                                      : Trim::awning_green);
-  const float first = 0.64f / trim_sheet_m * float(o.variant % 7);
+  const glm::vec2 v = synthesis::trim_strip(o.variant % 3 == 0   ? synthesis::Trim::metal
+                                            : o.variant % 3 == 1 ? synthesis::Trim::awning_red
+                                                                 : synthesis::Trim::awning_green);
+  const float first = 0.64f / synthesis::trim_sheet_m * float(o.variant % 7);
   right(mesh, CityMaterial::cloth, box, {first + 0.004f, glm::mix(v.x, v.y, 0.2f)},
         {first + 0.03f, glm::mix(v.x, v.y, 0.9f)});
 }
@@ -128,14 +130,14 @@ float depth_of_slope(const Building& b, float height_m) {
 void add_dormer(CityMesh& mesh, const Building& b, const Frame& f, const Ornament& o) {
   const float x0 = o.x_m, x1 = o.x_m + o.width_m, low = o.z_m, high = o.z_m + o.reach_m;
   const float y = depth_of_slope(b, low), y_back = depth_of_slope(b, high + 0.25f);
-  const glm::vec2 v = trim_strip(Trim::dormer);
-  const float u = float(o.variant % 8) * dormer_module_m / trim_sheet_m,
-              u1 = u + dormer_module_m / trim_sheet_m;
+  const glm::vec2 v = synthesis::trim_strip(synthesis::Trim::dormer);
+  const float u = float(o.variant % 8) * synthesis::dormer_module_m / synthesis::trim_sheet_m,
+              u1 = u + synthesis::dormer_module_m / synthesis::trim_sheet_m;
   mesh.quad(CityMaterial::trim, f.point(x0, y, low), f.point(x1, y, low), f.point(x1, y, high),
             f.point(x0, y, high), {u, v.x}, {u1, v.y});
   const glm::vec2 zinc(0.3f, 0.3f);
   const auto corner = [&](float px, float py, float pz) {
-    return Corner{f.point(px, py, pz), zinc + glm::vec2(px, py + pz) / roof_sheet_m};
+    return Corner{f.point(px, py, pz), zinc + glm::vec2(px, py + pz) / synthesis::roof_sheet_m};
   };
   const CityMaterial m = CityMaterial::roof_zinc;
   mesh.triangle(m, corner(x0, y_back, high + 0.25f), corner(x0, y, low), corner(x0, y, high));
@@ -148,12 +150,13 @@ void add_chimney(CityMesh& mesh, const Building& b, const Frame& f, const Orname
   const float depth = 0.5f * b.plot.depth_m + o.reach_m, half = 0.75f;
   const float foot = std::min(roof_height(b, depth - half), roof_height(b, depth + half)) - 0.1f;
   const Box box{f, o.x_m, o.x_m + o.width_m, depth - half, depth + half, foot, roof_height(b, depth) + 1.5f};
-  const StripUv wide = strip_uv(Trim::chimney, 2.0f * half), narrow = strip_uv(Trim::chimney, o.width_m);
+  const StripUv wide = strip_uv(synthesis::Trim::chimney, 2.0f * half),
+                narrow = strip_uv(synthesis::Trim::chimney, o.width_m);
   front(mesh, CityMaterial::trim, box, narrow.foot, narrow.top);
   back(mesh, CityMaterial::trim, box, narrow.foot, narrow.top);
   left(mesh, CityMaterial::trim, box, wide.foot, wide.top);
   right(mesh, CityMaterial::trim, box, wide.foot, wide.top);
-  const StripUv cap = strip_uv(Trim::metal, o.width_m);
+  const StripUv cap = strip_uv(synthesis::Trim::metal, o.width_m);
   lid(mesh, CityMaterial::trim, box, cap.foot, cap.top);
 }
 
@@ -173,8 +176,8 @@ void add_wing(CityMesh& mesh, const Building& b, const Frame& f, const Ornament&
             foot, side);
   mesh.quad(b.wall(), {f.point(x1, y1, 0), foot}, {f.point(x0, y1, 0), {end.x, 1.0f}},
             {f.point(x0, y1, high), end}, {f.point(x1, y1, low), {0.0f, end.y}});
-  const float slope = glm::length(glm::vec2(o.width_m, 1.2f)) / roof_sheet_m,
-              length = o.reach_m / roof_sheet_m;
+  const float slope = glm::length(glm::vec2(o.width_m, 1.2f)) / synthesis::roof_sheet_m,
+              length = o.reach_m / synthesis::roof_sheet_m;
   mesh.quad(CityMaterial::roof_tile, f.point(x1, y0, low), f.point(x1, y1, low), f.point(x0, y1, high),
             f.point(x0, y0, high), {0.0f, 0.0f}, {length, -slope});
 }

@@ -14,11 +14,11 @@
 #include "places/paper_city/mirror_bodies.h"
 #include "places/paper_city/night_lights.h"
 #include "places/paper_city/paper_script.h"
-#include "places/paper_city/sky_picture.h"
 #include "places/paper_city/street_furniture.h"
-#include "places/paper_city/tree.h"
 #include "places/paper_city/walker.h"
-#include "places/paper_city/writing_jobs.h"
+#include "synthesis/sky_picture.h"
+#include "synthesis/tree.h"
+#include "synthesis/writing_jobs.h"
 
 namespace parvis::city {
 namespace {
@@ -28,16 +28,16 @@ using scene::write_gltf;
 constexpr int sky_width_px = 2048;
 
 /// Everything that is written, as jobs that do not depend on each other, the longest first.
-std::vector<WritingJob> writing_jobs(std::uint64_t seed) {
-  std::vector<WritingJob> jobs;
+std::vector<synthesis::WritingJob> writing_jobs(std::uint64_t seed) {
+  std::vector<synthesis::WritingJob> jobs;
   jobs.push_back(
       [=](const fs::path& folder) { return write_gltf(folder / "city.glb", make_city_model(seed)); });
   jobs.push_back([=](const fs::path& folder) {
-    return write_image(folder / "sky.hdr", sky_picture(sky_width_px, to_sun(), seed));
+    return write_image(folder / "sky.hdr", synthesis::sky_picture(sky_width_px, to_sun(), seed));
   });
   for (int species = 0; species < tree_species; ++species)
     jobs.push_back([=](const fs::path& folder) {
-      const scene::Model tree = make_tree(species, seed);
+      const scene::Model tree = synthesis::make_tree(species, seed);
       return write_gltf(folder / (tree.name + ".glb"), tree);
     });
   std::vector<std::string> vehicle_files, parking_files;
@@ -90,7 +90,7 @@ scene::Model make_city_model(std::uint64_t seed) {
 }
 
 Status write_paper_city(const fs::path& folder, std::uint64_t seed) {
-  return write_together(writing_jobs(seed), folder);
+  return synthesis::write_together(writing_jobs(seed), folder);
 }
 
 }  // namespace parvis::city

@@ -9,11 +9,11 @@
 #include "life/traffic/demand.h"
 #include "places/paper_city/facade_texture.h"
 #include "places/paper_city/paper_script.h"
-#include "places/paper_city/sky_picture.h"
 #include "places/paper_city/street_furniture.h"
-#include "places/paper_city/tree.h"
 #include "scene/script/schema.h"
 #include "scene/script/script_reader.h"
+#include "synthesis/sky_picture.h"
+#include "synthesis/tree.h"
 
 namespace parvis::city {
 namespace {
@@ -74,8 +74,9 @@ TEST(PaperCity, IsTheSameForTheSameSeed) {
   };
   EXPECT_EQ(colour(4), colour(4));
   EXPECT_NE(colour(4), colour(5));
-  EXPECT_EQ(sky_picture(64, to_sun(), 4).pixels, sky_picture(64, to_sun(), 4).pixels);
-  EXPECT_EQ(make_tree(0, 4).parts[1].mesh.positions, make_tree(0, 4).parts[1].mesh.positions);
+  EXPECT_EQ(synthesis::sky_picture(64, to_sun(), 4).pixels, synthesis::sky_picture(64, to_sun(), 4).pixels);
+  EXPECT_EQ(synthesis::make_tree(0, 4).parts[1].mesh.positions,
+            synthesis::make_tree(0, 4).parts[1].mesh.positions);
   EXPECT_EQ(paper_script({}, 4), paper_script({}, 4));
 }
 
@@ -83,8 +84,8 @@ TEST(Trees, HaveThePapersCountForAnySeed) {
   EXPECT_EQ(tree_places().size(), 8u);
   for (std::uint64_t seed = 0; seed < 3; ++seed)
     for (int species = 0; species < tree_species; ++species) {
-      const scene::Model tree = make_tree(species, seed);
-      EXPECT_EQ(tree.triangle_count(), tree_triangles);
+      const scene::Model tree = synthesis::make_tree(species, seed);
+      EXPECT_EQ(tree.triangle_count(), synthesis::tree_triangles);
       for (const scene::Part& part : tree.parts) EXPECT_TRUE(check(part.mesh, part.object));
       EXPECT_GT(bounds(tree).max.z, 7.0f);
       EXPECT_NEAR(bounds(tree).min.z, 0.0f, 0.2f);
@@ -92,7 +93,7 @@ TEST(Trees, HaveThePapersCountForAnySeed) {
 }
 
 TEST(SkyPicture, IsFiniteBrightAboveAndWithoutSeam) {
-  const ImageF sky = sky_picture(256, to_sun(), 2);
+  const ImageF sky = synthesis::sky_picture(256, to_sun(), 2);
   ASSERT_EQ(sky.height, 128);
   for (const float value : sky.pixels) {
     EXPECT_TRUE(std::isfinite(value));

@@ -5,9 +5,9 @@
 #include <cassert>
 #include <cmath>
 
-#include "places/paper_city/ground_texture.h"
 #include "places/paper_city/street_plan.h"
-#include "places/paper_city/trim_texture.h"
+#include "synthesis/ground_texture.h"
+#include "synthesis/trim_texture.h"
 
 namespace parvis::city {
 namespace {
@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t lamp_triangles = 24, bollard_triangles = 10;
 
 /// A straight tapered tube with `sides` flat sides.
-void add_tube(CityMesh& mesh, Trim surface, glm::vec3 foot, int sides, float foot_radius, float top_radius,
-              float height) {
-  const glm::vec2 v = trim_strip(surface);
+void add_tube(CityMesh& mesh, synthesis::Trim surface, glm::vec3 foot, int sides, float foot_radius,
+              float top_radius, float height) {
+  const glm::vec2 v = synthesis::trim_strip(surface);
   const auto rim = [&](int i, float radius, float z) {
     const float angle = 6.2831853f * (float(i) + 0.5f) / float(sides);
     return foot + glm::vec3(radius * std::cos(angle), radius * std::sin(angle), z);
@@ -28,14 +28,14 @@ void add_tube(CityMesh& mesh, Trim surface, glm::vec3 foot, int sides, float foo
 }
 
 void add_lamp(CityMesh& mesh, glm::vec3 foot) {
-  add_tube(mesh, Trim::metal, foot, 4, 0.09f, 0.05f, 4.2f);
-  add_tube(mesh, Trim::slab, foot + glm::vec3(0, 0, 4.2f), 4, 0.1f, 0.22f, 0.5f);
-  add_tube(mesh, Trim::metal, foot + glm::vec3(0, 0, 4.7f), 4, 0.26f, 0.03f, 0.3f);
+  add_tube(mesh, synthesis::Trim::metal, foot, 4, 0.09f, 0.05f, 4.2f);
+  add_tube(mesh, synthesis::Trim::slab, foot + glm::vec3(0, 0, 4.2f), 4, 0.1f, 0.22f, 0.5f);
+  add_tube(mesh, synthesis::Trim::metal, foot + glm::vec3(0, 0, 4.7f), 4, 0.26f, 0.03f, 0.3f);
 }
 
 void add_bollard(CityMesh& mesh, glm::vec3 foot) {
-  add_tube(mesh, Trim::metal, foot, 4, 0.09f, 0.07f, 0.95f);
-  const glm::vec2 v = trim_strip(Trim::metal);
+  add_tube(mesh, synthesis::Trim::metal, foot, 4, 0.09f, 0.07f, 0.95f);
+  const glm::vec2 v = synthesis::trim_strip(synthesis::Trim::metal);
   const float r = 0.05f, z = 0.95f;
   mesh.quad(CityMaterial::trim, foot + glm::vec3(-r, -r, z), foot + glm::vec3(r, -r, z),
             foot + glm::vec3(r, r, z), foot + glm::vec3(-r, r, z), {0.0f, v.x}, {0.02f, v.y});

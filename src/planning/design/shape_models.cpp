@@ -7,15 +7,15 @@
 #include <tuple>
 
 #include "base/colour.h"
-#include "places/paper_city/ground_texture.h"
 #include "places/paper_city/night_lights.h"
-#include "places/paper_city/round_mesh.h"
+#include "synthesis/ground_texture.h"
+#include "synthesis/round_mesh.h"
 
 namespace parvis::design {
 namespace {
 
-using city::panelled_box, city::smooth, city::tube, city::turned;
 using glm::vec3;
+using synthesis::panelled_box, synthesis::smooth, synthesis::tube, synthesis::turned;
 
 constexpr float whole = 10.0f;  // of panels: one square
 
@@ -255,7 +255,7 @@ scene::Model bin(const ShapeRequest& request) {
 scene::Model bicycle_stand(const ShapeRequest& request) {
   const float half = 0.5f * request.size_m.x - 0.025f, height = request.size_m.z - 0.025f,
               round = 0.5f * half;
-  std::vector<city::TubeRing> rings{{{-half, 0.0f, 0.0f}, 0.024f}};
+  std::vector<synthesis::TubeRing> rings{{{-half, 0.0f, 0.0f}, 0.024f}};
   constexpr int steps = 6;
   for (const float side : {-1.0f, 1.0f})
     for (int i = 0; i <= steps; ++i) {
@@ -323,16 +323,16 @@ std::vector<std::uint32_t> triangles_of(const std::vector<glm::vec3>& outline) {
 struct Sheet {
   const char* name;
   float side_m;
-  city::SurfacePictures (*paint)(std::uint32_t seed);
+  synthesis::SurfacePictures (*paint)(std::uint32_t seed);
 };
-constexpr Sheet sheets[]{{"paving", city::paving_sheet_m, city::paving_pictures},
-                         {"asphalt", city::asphalt_sheet_m, city::asphalt_pictures},
-                         {"gravel", city::gravel_sheet_m, city::gravel_pictures},
-                         {"lawn", city::lawn_sheet_m, city::lawn_pictures}};
+constexpr Sheet sheets[]{{"paving", synthesis::paving_sheet_m, synthesis::paving_pictures},
+                         {"asphalt", synthesis::asphalt_sheet_m, synthesis::asphalt_pictures},
+                         {"gravel", synthesis::gravel_sheet_m, synthesis::gravel_pictures},
+                         {"lawn", synthesis::lawn_sheet_m, synthesis::lawn_pictures}};
 
 /// Painted once; models share the pictures' content, not their memory.
-const city::SurfacePictures& pictures_of(const Sheet& sheet) {
-  static std::map<std::string, city::SurfacePictures> painted;
+const synthesis::SurfacePictures& pictures_of(const Sheet& sheet) {
+  static std::map<std::string, synthesis::SurfacePictures> painted;
   const auto [pictures, is_new] = painted.try_emplace(sheet.name);
   if (is_new) pictures->second = sheet.paint(11);
   return pictures->second;
@@ -388,7 +388,7 @@ scene::Model surface_model(const std::vector<glm::vec3>& outline, const std::str
   fill_normals(mesh);
   scene::Material surface = plain(material.c_str(), colour, 0.9f);
   if (sheet != std::end(sheets)) {
-    const city::SurfacePictures& pictures = pictures_of(*sheet);
+    const synthesis::SurfacePictures& pictures = pictures_of(*sheet);
     for (const auto& [name, image, is_srgb] : {std::tuple(material, &pictures.colour, true),
                                                std::tuple(material + " normals", &pictures.normal, false),
                                                std::tuple(material + " surface", &pictures.surface, false)}) {
