@@ -12,7 +12,7 @@
 #include "base/image.h"
 #include "bench/report.h"
 #include "house/rooms.h"
-#include "house/stage/stage.h"
+#include "stage/stage.h"
 
 namespace parvis::bench {
 

@@ -2,9 +2,9 @@
 #include "commands.h"
 #include "graphics/gl/context.h"
 #include "graphics/render/bake_steps.h"
-#include "house/stage/baking.h"
 #include "machines/processes.h"
 #include "scene_arguments.h"
+#include "stage/baking.h"
 
 namespace parvis {
 namespace {

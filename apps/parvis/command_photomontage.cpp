@@ -13,11 +13,11 @@
 #include "capture/photographs/set_file.h"
 #include "commands.h"
 #include "graphics/light/day_light_time.h"
-#include "house/stage/output_names.h"
 #include "planning/design/design_nodes.h"
 #include "planning/photomontage/caption.h"
 #include "planning/photomontage/montage.h"
 #include "scene_arguments.h"
+#include "stage/output_names.h"
 
 namespace parvis {
 namespace {

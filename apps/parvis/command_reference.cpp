@@ -5,11 +5,11 @@
 #include "base/image_io.h"
 #include "commands.h"
 #include "graphics/shading/tone_curve.h"
-#include "house/stage/output_names.h"
-#include "house/stage/photographs.h"
 #include "interruption.h"
 #include "machines/processes.h"
 #include "scene_arguments.h"
+#include "stage/output_names.h"
+#include "stage/photographs.h"
 
 namespace parvis {
 namespace {

@@ -8,15 +8,15 @@
 #include "base/reduction.h"
 #include "commands.h"
 #include "graphics/render/picture_reader.h"
-#include "house/stage/divided_film.h"
-#include "house/stage/film.h"
-#include "house/stage/output_names.h"
-#include "house/stage/probe.h"
 #include "interruption.h"
 #include "machines/processes.h"
 #include "reflections/methods/registry.h"
 #include "scene/data/scene_key.h"
 #include "scene_arguments.h"
+#include "stage/divided_film.h"
+#include "stage/film.h"
+#include "stage/output_names.h"
+#include "stage/probe.h"
 
 namespace parvis {
 namespace {

@@ -14,10 +14,10 @@
 #include "graphics/gl/context.h"
 #include "graphics/light/day_light.h"
 #include "graphics/light/sun_study.h"
-#include "house/stage/film.h"
 #include "machines/processes.h"
 #include "scene/script/attribute.h"
 #include "scene_arguments.h"
+#include "stage/film.h"
 
 namespace parvis {
 namespace {

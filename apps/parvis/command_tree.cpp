@@ -27,8 +27,8 @@
 #include "commands.h"
 #include "formats/gltf/gltf_writer.h"
 #include "graphics/gl/context.h"
-#include "house/stage/output_names.h"
 #include "interruption.h"
+#include "stage/output_names.h"
 #include "strict_numbers.h"
 #include "tree_products.h"
 

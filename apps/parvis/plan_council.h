@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "house/stage/stage.h"
 #include "planning/design/session.h"
+#include "stage/stage.h"
 
 namespace parvis {
 

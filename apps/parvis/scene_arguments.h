@@ -11,8 +11,8 @@
 #include "base/memory_budget.h"
 #include "base/result.h"
 #include "house/rooms.h"
-#include "house/stage/stage.h"
 #include "places/dressing/bare_file.h"
+#include "stage/stage.h"
 #include "strict_numbers.h"
 
 namespace parvis {

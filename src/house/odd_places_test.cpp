@@ -7,7 +7,7 @@
 #include "base/test_folder.h"
 #include "graphics/gl/test_context.h"
 #include "house/rooms.h"
-#include "house/stage/stage.h"
+#include "stage/stage.h"
 
 namespace parvis::house {
 namespace {

@@ -2,10 +2,10 @@
 
 #include "formats/gltf/test_validator.h"
 #include "house/rooms.h"
-#include "house/stage/stage.h"
 #include "life/traffic/demand.h"
 #include "places/paper_city/paper_city.h"
 #include "places/paper_city/paper_script.h"
+#include "stage/stage.h"
 
 namespace parvis::house {
 namespace {

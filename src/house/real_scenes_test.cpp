@@ -5,10 +5,10 @@
 
 #include "base/test_data.h"
 #include "house/rooms.h"
-#include "house/stage/stage.h"
 #include "land/heights/ground_raster.h"
 #include "life/traffic/traffic.h"
 #include "scene/script/scene_loader.h"
+#include "stage/stage.h"
 
 namespace parvis::house {
 namespace {

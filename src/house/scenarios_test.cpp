@@ -5,8 +5,8 @@
 #include "base/test_folder.h"
 #include "graphics/gl/context.h"
 #include "house/rooms.h"
-#include "house/stage/stage.h"
 #include "places/paper_city/paper_city.h"
+#include "stage/stage.h"
 
 namespace parvis::house {
 namespace {

@@ -7,9 +7,9 @@
 #include "base/files.h"
 #include "base/test_data.h"
 #include "house/rooms.h"
-#include "house/stage/stage.h"
 #include "scene/script/schema_json.h"
 #include "scene/script/script_reader.h"
+#include "stage/stage.h"
 
 namespace parvis::house {
 namespace {

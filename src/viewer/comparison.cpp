@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/content_hash.h"
-#include "house/stage/stillness.h"
+#include "stage/stillness.h"
 
 namespace parvis::viewer {
 

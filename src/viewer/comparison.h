@@ -5,7 +5,7 @@
 #include <string>
 
 #include "graphics/gl/objects.h"
-#include "house/stage/stage.h"
+#include "stage/stage.h"
 
 namespace parvis::viewer {
 

@@ -7,8 +7,8 @@
 
 #include "base/kept_parts.h"
 #include "graphics/gl/objects.h"
-#include "house/stage/stage.h"
 #include "planning/design/kind.h"
+#include "stage/stage.h"
 
 namespace parvis::viewer {
 

@@ -7,10 +7,10 @@
 #include "base/test_folder.h"
 #include "formats/gltf/gltf_writer.h"
 #include "house/rooms.h"
-#include "house/stage/stage.h"
 #include "scene/action/actions.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/attribute.h"
+#include "stage/stage.h"
 
 namespace parvis::viewer {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/image_io.h"
-#include "house/stage/probe.h"
 #include "reflections/methods/settings.h"
 #include "scene/data/realism.h"
+#include "stage/probe.h"
 #include "viewer/screenshots.h"
 
 namespace parvis::viewer {

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "house/stage/stage.h"
+#include "stage/stage.h"
 #include "viewer/navigation.h"
 
 namespace parvis::viewer {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "house/stage/stage.h"
 #include "planning/planner/words.h"
+#include "stage/stage.h"
 #include "viewer/visit.h"
 
 namespace parvis::viewer {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
-#include "house/stage/place_check.h"
 #include "scene/script/scene_loader.h"
+#include "stage/place_check.h"
 
 namespace parvis::bench {
 namespace {

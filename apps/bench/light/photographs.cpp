@@ -26,8 +26,8 @@
 #include "graphics/render/renderer.h"
 #include "graphics/shading/tone_curve.h"
 #include "graphics/shadows/chosen_light.h"
-#include "house/stage/stage.h"
 #include "scene/data/lamp.h"
+#include "stage/stage.h"
 
 namespace parvis::bench {
 namespace {

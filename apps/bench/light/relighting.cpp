@@ -17,10 +17,10 @@
 #include "graphics/reference/ray_scene.h"
 #include "graphics/reference/shading_point.h"
 #include "graphics/shading/sun.h"
-#include "house/stage/stage.h"
 #include "places/paper_city/paper_city.h"
 #include "places/paper_city/street_plan.h"
 #include "scene/data/vertex_irradiance.h"
+#include "stage/stage.h"
 
 namespace parvis::bench {
 namespace {

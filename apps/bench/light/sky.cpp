@@ -25,8 +25,8 @@
 #include "graphics/render/frame_views.h"
 #include "graphics/render/light_source.h"
 #include "graphics/render/renderer.h"
-#include "house/stage/stage.h"
 #include "places/paper_city/paper_script.h"
+#include "stage/stage.h"
 #include "synthesis/sky_picture.h"
 
 namespace parvis::bench {

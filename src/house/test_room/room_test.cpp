@@ -10,8 +10,8 @@
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/render/bake_steps.h"
 #include "house/rooms.h"
-#include "house/stage/baking.h"
-#include "house/stage/stage.h"
+#include "stage/baking.h"
+#include "stage/stage.h"
 
 namespace parvis::house {
 namespace {

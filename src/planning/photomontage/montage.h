@@ -6,7 +6,7 @@
 
 #include "base/image.h"
 #include "capture/photographs/photograph.h"
-#include "house/stage/stage.h"
+#include "stage/stage.h"
 
 namespace parvis::photomontage {
 

@@ -1,4 +1,4 @@
-#include "house/stage/photographs.h"
+#include "stage/photographs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "formats/gltf/gltf_cameras.h"
 #include "graphics/reference/seen_points.h"
 #include "graphics/shading/tone_curve.h"
-#include "house/stage/output_names.h"
+#include "stage/output_names.h"
 
 namespace parvis::house {
 namespace {

@@ -1,7 +1,7 @@
 // The renderer against the ray tracer on a street that has something of everything: walls in sun and shade,
 // ground, a fence with holes, a pane that lets through, a lacquered car that reflects and darkens the road
 // below it.
-#include "house/stage/stage.h"
+#include "stage/stage.h"
 
 #include <gtest/gtest.h>
 
@@ -12,11 +12,11 @@
 #include "graphics/reference/metrics.h"
 #include "graphics/shading/tone_curve.h"
 #include "house/rooms.h"
-#include "house/stage/kept_rays.h"
-#include "house/stage/stillness.h"
 #include "reflections/methods/settings.h"
 #include "scene/data/object_animation.h"
 #include "scene/data/test_scene.h"
+#include "stage/kept_rays.h"
+#include "stage/stillness.h"
 
 namespace parvis::house {
 namespace {

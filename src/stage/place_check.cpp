@@ -1,4 +1,4 @@
-#include "house/stage/place_check.h"
+#include "stage/place_check.h"
 
 #include <algorithm>
 #include <array>

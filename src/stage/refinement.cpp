@@ -1,4 +1,4 @@
-#include "house/stage/refinement.h"
+#include "stage/refinement.h"
 
 #include "graphics/shading/tone_curve.h"
 

@@ -1,4 +1,4 @@
-#include "house/stage/stillness.h"
+#include "stage/stillness.h"
 
 #include "base/content_hash.h"
 #include "reflections/methods/settings.h"

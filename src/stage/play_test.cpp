@@ -3,7 +3,7 @@
 
 #include "base/test_folder.h"
 #include "house/rooms.h"
-#include "house/stage/stage.h"
+#include "stage/stage.h"
 
 namespace parvis::house {
 namespace {

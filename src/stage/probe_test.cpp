@@ -1,4 +1,4 @@
-#include "house/stage/probe.h"
+#include "stage/probe.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "house/stage/film.h"
+#include "stage/film.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "house/stage/probe.h"
+#include "stage/probe.h"
 
 #include "graphics/reference/camera_ray.h"
 #include "graphics/reference/ray_scene.h"

@@ -16,14 +16,14 @@
 #include "graphics/render/drawables.h"
 #include "graphics/render/picture_scale.h"
 #include "graphics/render/renderer.h"
-#include "house/stage/scene_camera.h"
-#include "house/stage/shown_radiance.h"
 #include "machines/processes.h"
 #include "reflections/methods/reflections.h"
 #include "reflections/methods/settings.h"
 #include "scene/action/actions.h"
 #include "scene/action/scene_clock.h"
 #include "scene/script/scene_loader.h"
+#include "stage/scene_camera.h"
+#include "stage/shown_radiance.h"
 
 namespace parvis::house {
 

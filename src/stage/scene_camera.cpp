@@ -1,4 +1,4 @@
-#include "house/stage/scene_camera.h"
+#include "stage/scene_camera.h"
 
 #include <algorithm>
 

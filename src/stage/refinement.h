@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "graphics/reference/tracer.h"
-#include "house/stage/kept_rays.h"
 #include "scene/data/scene.h"
+#include "stage/kept_rays.h"
 
 namespace parvis::house {
 

@@ -1,4 +1,4 @@
-#include "house/stage/kept_rays.h"
+#include "stage/kept_rays.h"
 
 #include <algorithm>
 #include <span>

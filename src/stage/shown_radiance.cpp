@@ -1,4 +1,4 @@
-#include "house/stage/shown_radiance.h"
+#include "stage/shown_radiance.h"
 
 #include "graphics/render/picture_target.h"
 

@@ -1,4 +1,4 @@
-#include "house/stage/baking.h"
+#include "stage/baking.h"
 
 #include <fmt/format.h>
 

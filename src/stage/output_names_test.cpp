@@ -1,4 +1,4 @@
-#include "house/stage/output_names.h"
+#include "stage/output_names.h"
 
 #include <gtest/gtest.h>
 

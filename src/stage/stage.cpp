@@ -1,17 +1,17 @@
-#include "house/stage/stage.h"
+#include "stage/stage.h"
 
 #include "base/checked.h"
 #include "base/memory_budget.h"
 #include "graphics/gl/context.h"
 #include "graphics/shading/realism.h"
 #include "graphics/shading/tone_curve.h"
-#include "house/stage/place_check.h"
-#include "house/stage/refinement.h"
-#include "house/stage/stillness.h"
 #include "reflections/methods/frame.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "scene/data/realism.h"
+#include "stage/place_check.h"
+#include "stage/refinement.h"
+#include "stage/stillness.h"
 
 namespace parvis::house {
 namespace {

@@ -1,4 +1,4 @@
-#include "house/stage/divided_film.h"
+#include "stage/divided_film.h"
 
 #include <optional>
 
@@ -6,9 +6,9 @@
 #include "base/image_io.h"
 #include "base/progress.h"
 #include "base/sealed_file.h"
-#include "house/stage/film.h"
-#include "house/stage/output_names.h"
 #include "machines/divided_work.h"
+#include "stage/film.h"
+#include "stage/output_names.h"
 
 namespace parvis::house {
 namespace fs = std::filesystem;
