@@ -53,7 +53,6 @@ struct SynthesizeArguments {
 struct ReconstructArguments {
   std::filesystem::path capture, output;
   trees::ReconstructionOptions options;
-  bool is_octree = false;
 };
 
 struct TextureArguments {
@@ -167,7 +166,6 @@ Status mattes(const trees::MatteFolder& folder) {
 Status reconstruct(ReconstructArguments arguments) {
   const Result<std::vector<trees::TreeView>> views = trees::read_capture(arguments.capture);
   if (!views) return views.errors();
-  if (arguments.is_octree) arguments.options.grid.branching = 2;
   const Result<machines::Processes> processes = machines::Processes::join();
   if (!processes) return processes.errors();
   arguments.options.processes = *processes;
@@ -364,7 +362,6 @@ void add_reconstruct(CLI::App& tree, Chosen& chosen) {
       ->add_option("--cutoff", arguments->options.cutoff,
                    "Transparency above which a cell is empty (default: by held-out error)")
       ->check(CLI::Range(0.0f, 1.0f));
-  command->add_flag("--octree", arguments->is_octree, "Divide 2x2x2 in place of 3x3x3");
   command->add_flag("--keep-inconsistent", arguments->options.keeps_inconsistent,
                     "Use a photograph whose silhouette contradicts all others, which is left out else");
   command->footer(

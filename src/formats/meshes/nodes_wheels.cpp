@@ -34,14 +34,12 @@ NodeSchema wheels_schema() {
   schema.attributes.push_back(size("radius", "of the tyre", shape.radius_m));
   schema.attributes.push_back(size("width", "of the tyre", shape.width_m));
   schema.attributes.push_back(size("rim_radius", "of the rim; less than radius", shape.rim_radius_m));
-  schema.attributes.push_back(
-      integer("spokes", "of the rim").between(2, 50).by_default(fmt::format("{}", shape.spokes)));
   return schema;
 }
 
 void add_wheels(const Node& node, Model& model, SceneBuilder& builder) {
   const WheelShape shape{float(node.number("radius")), float(node.number("width")),
-                         float(node.number("rim_radius")), int(node.integer("spokes"))};
+                         float(node.number("rim_radius"))};
   if (shape.rim_radius_m >= shape.radius_m)
     return builder.fail(error_at(node.where_of("rim_radius"), "the rim must be smaller than the tyre"));
   const Model wheel = make_wheel(shape);

@@ -6,6 +6,7 @@
 namespace parvis::scene {
 namespace {
 
+constexpr int spoke_count = 5;
 constexpr float spoke_flare =
     0.22f;  ///< half a spoke's width at the lip, as a share of the distance between spokes
 
@@ -95,8 +96,8 @@ Mesh rim(const WheelShape& shape) {
   Mesh mesh;
   add_turned(mesh, barrel, std::uint32_t(shape.segments));
   add_turned(mesh, cap, std::uint32_t(shape.segments));
-  const float step = glm::two_pi<float>() / float(shape.spokes);
-  for (int i = 0; i < shape.spokes; ++i)
+  const float step = glm::two_pi<float>() / float(spoke_count);
+  for (int i = 0; i < spoke_count; ++i)
     add_spoke(mesh, step * float(i), 0.9f * hub, 0.93f * r, 0.45f * step * hub, spoke_flare * step * r,
               face_y, back_y);
   return finished(std::move(mesh));

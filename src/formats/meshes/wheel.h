@@ -9,7 +9,6 @@ struct WheelShape {
   float radius_m = 0.31f;
   float width_m = 0.20f;
   float rim_radius_m = 0.21f;
-  int spokes = 5;
   int segments = 48;                ///< of a circle
   bool has_round_shoulders = true;  ///< of the tyre; else its profile has half as many points
 };

@@ -33,32 +33,31 @@ AttributeSchema live_integer(std::string name, std::string help, std::string fal
 
 scene::NodeSchema day_light_schema() {
   using namespace scene::attribute;
-  return {.type = "dayLight",
-          .help =
-              "Sun and sky of a place on the earth at an hour: in place of sun(...) and sky(...). Sets the "
-              "exposure, too, which exposure(value=...) multiplies.",
-          .attributes =
-              {live_number("latitude", "north positive", "43.70", "degrees", -90, 90, {"lattitude"}),
-               live_number("longitude", "east positive", "7.27", "degrees", -180, 180),
-               live_number("standardMeridian",
-                           "the clock's time zone: hours ahead of universal time, east positive", "0", "h",
-                           -12, 14, {"standartMeridian"}),
-               live_integer("julianDay", "of the year: 1 is 1 January", "172", 1, 366),
-               live_number("timeOfDay", "by the clock, below 24: 14.25 is 14:15", "12", "h", 0, 24),
-               live_number("turbidity", "1 pure air, 2 to 6 clear days, 10 haze, 30 and more mist", "3", "",
-                           min_turbidity, max_turbidity, {"turbidy"}),
-               live_integer("year", "matters by some hundredths of a degree, and for 29 February", "2026",
-                            min_year, max_year),
-               choice("model", "atmosphere: computed from scattering; preetham: the thesis's fit of 1999",
-                      {sky_kind_names.begin(), sky_kind_names.end()})
-                   .by_default(sky_kind_names[0])
-                   .live(),
-               live_number("ground_albedo", "the share of light that the land around gives back to the sky",
-                           "0.2", "", 0, 1)},
-          .example =
-              "dayLight(latitude=43.70, longitude=7.27, standardMeridian=1, julianDay=80, timeOfDay=17.5, "
-              "turbidity=3)",
-          .is_unique = true};
+  return {
+      .type = "dayLight",
+      .help =
+          "Sun and sky of a place on the earth at an hour: in place of sun(...) and sky(...). Sets the "
+          "exposure, too, which exposure(value=...) multiplies.",
+      .attributes = {live_number("latitude", "north positive", "43.70", "degrees", -90, 90, {"lattitude"}),
+                     live_number("longitude", "east positive", "7.27", "degrees", -180, 180),
+                     live_number("standardMeridian",
+                                 "the clock's time zone: hours ahead of universal time, east positive", "0",
+                                 "h", -12, 14, {"standartMeridian"}),
+                     live_integer("julianDay", "of the year: 1 is 1 January", "172", 1, 366),
+                     live_number("timeOfDay", "by the clock, below 24: 14.25 is 14:15", "12", "h", 0, 24),
+                     live_number("turbidity", "1 pure air, 2 to 6 clear days, 10 haze, 30 and more mist", "3",
+                                 "", min_turbidity, max_turbidity, {"turbidy"}),
+                     live_integer("year", "matters by some hundredths of a degree, and for 29 February",
+                                  "2026", min_year, max_year),
+                     choice("model",
+                            "atmosphere: computed from scattering; preetham: the thesis's fit of 1999",
+                            {sky_kind_names.begin(), sky_kind_names.end()})
+                         .by_default(sky_kind_names[0])
+                         .live()},
+      .example =
+          "dayLight(latitude=43.70, longitude=7.27, standardMeridian=1, julianDay=80, timeOfDay=17.5, "
+          "turbidity=3)",
+      .is_unique = true};
 }
 
 void relight(const scene::Node& node, scene::SceneBuilder& builder) {
@@ -75,7 +74,7 @@ void build_day_light(const scene::Node& node, scene::SceneBuilder& builder) {
   if (const Status status = check(when); !status) return builder.fail(status.errors(), node.where);
   day.when = when;
   day.when.true_north_deg = builder.scene.true_north_deg;
-  day.air = {node.number("turbidity"), node.number("ground_albedo")};
+  day.air = {node.number("turbidity")};
   for (std::size_t i = 0; i < sky_kind_names.size(); ++i)
     if (node.text("model") == sky_kind_names[i]) day.kind = SkyKind(i);
   relight(node, builder);

@@ -25,6 +25,7 @@ namespace {
 using namespace attribute;
 
 constexpr float m_s_per_km_h = 1.0f / 3.6f;
+constexpr float speed_of_streets_km_h = 30.0f;  // where a file gives polygons alone
 
 NodeSchema road_schema() {
   return {.type = "road",
@@ -71,10 +72,6 @@ NodeSchema streets_schema() {
                           "any character")
                          .by_default("*Road*")
                          .repeatable(),
-                     number("speed_km_h", "the limit where the file gives none")
-                         .in("km/h")
-                         .between(1, 300)
-                         .by_default("30"),
                      flag("paving",
                           "show them, as paving does, where the file gives centre lines without surfaces")
                          .by_default("1")},
@@ -137,7 +134,7 @@ void build_streets(const Node& node, SceneBuilder& builder) {
                  "give the streets by road()",
                  polygons.size(), name));
   for (Road road : roads) {
-    road.speed_limit = float(node.number("speed_km_h")) * m_s_per_km_h;
+    road.speed_limit = speed_of_streets_km_h * m_s_per_km_h;
     road.where = node.where_of("of");
     builder.add(PlannedRoad{std::move(road)});
   }

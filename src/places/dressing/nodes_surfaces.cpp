@@ -8,6 +8,7 @@
 #include "scene/data/model_parts.h"
 #include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
+#include "synthesis/place_seed.h"
 
 namespace parvis::dressing {
 namespace {
@@ -61,15 +62,14 @@ scene::NodeSchema facades_schema() {
               "stay blank, pictures and windows of the model itself are kept. Materials that later nodes can "
               "change: \"street level\", \"facade\" and \"brick wall\", \"plaster wall\" and so on.",
           .attributes = {surface_attribute(wall_name),
-                         integer("seed", "another one, other houses").between(0, 1e9).by_default("1"),
                          flag("openings", "0: walls alone, as of gardens and quays").by_default("1")},
           .stands_in = {"model"},
           .example = example_of("facades(target=\"WallSurface\")")};
 }
 
 void build_facades(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
-  if (add_facades(model, target_or(node, model, wall_name), std::uint64_t(node.integer("seed")),
-                  node.flag("openings")) == 0)
+  if (add_facades(model, target_or(node, model, wall_name), synthesis::place_seed, node.flag("openings")) ==
+      0)
     warn(builder, node, model, "walls");
 }
 
@@ -82,16 +82,13 @@ scene::NodeSchema roofs_schema() {
           "Materials "
           "that later nodes can change: \"roof tiles\", \"flat roof\", \"roof edge\", \"chimney\", \"roof "
           "plant\".",
-      .attributes =
-          {surface_attribute(roof_name),
-           flag("details", "parapets along flat roofs, chimneys, plant on large roofs").by_default("1")},
+      .attributes = {surface_attribute(roof_name)},
       .stands_in = {"model"},
       .example = example_of("roofs(target=\"RoofSurface\")")};
 }
 
 void build_roofs(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
-  if (add_roofs(model, target_or(node, model, roof_name), node.flag("details")) == 0)
-    warn(builder, node, model, "roofs");
+  if (add_roofs(model, target_or(node, model, roof_name)) == 0) warn(builder, node, model, "roofs");
 }
 
 scene::NodeSchema ground_schema() {
@@ -116,14 +113,13 @@ scene::NodeSchema greenery_schema() {
               "Lawns and trees in place of green that was measured from the air, which stands in a model as "
               "ground "
               "pulled up to the tops of trees.",
-          .attributes = {target_attribute(),
-                         integer("seed", "of the trees' shapes").between(0, 1e9).by_default("1")},
+          .attributes = {target_attribute()},
           .stands_in = {"model"},
           .example = example_of("greenery(target=\"PlantCover\")")};
 }
 
 void build_greenery(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
-  if (add_greenery(model, node.text("target"), std::uint64_t(node.integer("seed"))) == 0)
+  if (add_greenery(model, node.text("target"), synthesis::place_seed) == 0)
     warn(builder, node, model, "trees");
 }
 

@@ -35,22 +35,14 @@ scene::NodeSchema terrain_plane_schema() {
                           .type = scene::AttributeType::choice,
                           .help = "what lies elsewhere",
                           .fallback = "lawn",
-                          .choices = ground_covers()},
-                         {.name = "reach",
-                          .type = scene::AttributeType::number,
-                          .help = "how far it goes from the middle of the place",
-                          .fallback = "6000",
-                          .unit = "m",
-                          .minimum = 10,
-                          .maximum = 50'000}},
+                          .choices = ground_covers()}},
           .example = "terrain_plane(surface=\"paving\", beyond=\"lawn\")",
           .is_unique = true,
           .is_laid_out_once = true};
 }
 
 void build_terrain_plane(const scene::Node& node, scene::SceneBuilder& builder) {
-  builder.scene.data<PlannedTerrain>() = {
-      true, {node.text("surface"), node.text("beyond"), float(node.number("reach"))}};
+  builder.scene.data<PlannedTerrain>() = {true, {node.text("surface"), node.text("beyond")}};
 }
 
 void finish_terrain(scene::SceneBuilder& builder) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "synthesis/place_seed.h"
 
 namespace parvis::kerbside {
 namespace {
@@ -51,7 +52,7 @@ bool all_along(vec2 middle, vec2 along, const KerbSeries& series, At&& at) {
 std::vector<KerbPlace> take_kerb_places(const scene::RoadGraph& roads, const KerbSeries& series,
                                         FreeGround& ground) {
   std::vector<KerbPlace> places;
-  Random random(series.seed, 301);
+  Random random(synthesis::place_seed, 301);
   for (const scene::Lane& lane : roads.lanes) {
     if (lane.crossing >= 0 || lane.speed_limit > fastest_m_s) continue;
     const bool is_on_lane = series.stands_on_wide_lanes && lane.width_m >= wide_lane_m;

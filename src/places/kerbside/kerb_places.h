@@ -25,7 +25,6 @@ struct KerbSeries {
   float radius_m = 0.5f;              ///< about the line along that length nothing else may stand
   float from_lanes_m = 0.2f;          ///< about that line there is no carriageway
   float share = 1.0f;                 ///< of the places: the others stay free
-  std::uint64_t seed = 1;             ///< of the chance by which they do
   bool stands_on_wide_lanes = false;  ///< on lanes of 4.8 m and more, beside the kerb, as parked cars do
   std::optional<Circle> circle = {};  ///< in which it stands; without one: everywhere
 };

@@ -22,6 +22,7 @@
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
+#include "synthesis/place_seed.h"
 
 namespace parvis::kerbside {
 namespace {
@@ -60,10 +61,6 @@ scene::AttributeSchema of_attribute(const std::string& else_what) {
               "names of objects of the scene, with * and ?, of which one stands at each place; they may "
               "be hidden themselves. Without it: " +
                   else_what);
-}
-scene::AttributeSchema seed_attribute() {
-  using namespace scene::attribute;
-  return integer("seed", "another one, other shapes and places").between(0, 1e9).by_default("1");
 }
 scene::AttributeSchema spacing_attribute(const std::string& help, double min_m) {
   using namespace scene::attribute;
@@ -114,9 +111,8 @@ scene::NodeSchema street_trees_schema() {
                   {"paper_city", "orange", "oak", "plane", "spruce", "pine"})
                .by_default("paper_city"),
            spacing_attribute("between trees", 2).by_default("10"),
-           number("beside", "from the kerb to the trunk").in("m").between(0.3, 20).by_default("0.9"),
            number("clear", "from the trunk to walls and all else").in("m").between(0.2, 10).by_default("1.6"),
-           number("height", "of the trees").in("m").between(2, 30).by_default("8"), seed_attribute()},
+           number("height", "of the trees").in("m").between(2, 30).by_default("8")},
       .example = "road(path=\"0 0, 120 0\")\nstreetTrees(spacing=9, height=7)",
       .is_laid_out_once = true};
 }
@@ -129,17 +125,15 @@ void build_street_trees(const scene::Node& node, scene::SceneBuilder& builder) {
                  "of the two",
                  node.text("of"), node.text("kind")));
   const float height_m = float(node.number("height"));
-  const auto seed = std::uint64_t(node.integer("seed"));
   PlannedSeries planned;
   planned.is_visible = is_visible(node, builder);
-  planned.series = {.spacing_m = float(node.number("spacing")),
-                    .beside_m = float(node.number("beside")),
-                    .radius_m = float(node.number("clear"))};
+  planned.series = {.spacing_m = float(node.number("spacing")), .radius_m = float(node.number("clear"))};
   planned.object_name = "street tree";
   planned.of = node.text("of"), planned.where_of = node.where_of("of");
-  planned.models = [height_m, seed](std::size_t) { return street_trees(height_m, seed); };
-  if (planned.of.empty()) planned.plant = {vegetation::find_kind(node.text("kind")), height_m, 0.0f, seed};
-  planned.series.seed = seed, planned.turns_at_random = true;
+  planned.models = [height_m](std::size_t) { return street_trees(height_m, synthesis::place_seed); };
+  if (planned.of.empty())
+    planned.plant = {vegetation::find_kind(node.text("kind")), height_m, 0.0f, synthesis::place_seed};
+  planned.turns_at_random = true;
   if (read_circle(node, builder, planned.series)) builder.add(std::move(planned));
 }
 
@@ -153,8 +147,7 @@ scene::NodeSchema parked_cars_schema() {
           "They take reflections.",
       .attributes = {of_attribute("cars of the paper's city"),
                      number("share", "of the places that are taken").between(0, 1).by_default("0.6"),
-                     spacing_attribute("from the middle of a place to that of the next", 5).by_default("6"),
-                     seed_attribute()},
+                     spacing_attribute("from the middle of a place to that of the next", 5).by_default("6")},
       .example = "road(path=\"0 0, 120 0\")\nparkedCars(share=0.4)",
       .is_laid_out_once = true};
 }
@@ -171,8 +164,7 @@ void build_parked_cars(const scene::Node& node, scene::SceneBuilder& builder) {
   planned.object_name = "parked car";
   planned.of = node.text("of"), planned.where_of = node.where_of("of");
   planned.models = parked_cars;
-  planned.series.share = float(node.number("share")),
-  planned.series.seed = std::uint64_t(node.integer("seed"));
+  planned.series.share = float(node.number("share"));
   planned.is_car = true;
   if (read_circle(node, builder, planned.series)) builder.add(std::move(planned));
 }
@@ -188,8 +180,7 @@ scene::NodeSchema street_furniture_schema() {
               "lights the lamps.",
           .attributes = {choice("kind", "what stands there", kinds).by_default("lamps"),
                          of_attribute("generated ones"),
-                         spacing_attribute("between two of them; else what is usual for the kind", 1),
-                         seed_attribute()},
+                         spacing_attribute("between two of them; else what is usual for the kind", 1)},
           .example =
               "road(path=\"0 0, 120 0\")\nstreetFurniture(kind=\"lamps\")\n"
               "lamp(of=\"street lamp *\", position=\"0 0 4.45\", flux_lm=5000)",
@@ -209,7 +200,6 @@ void build_street_furniture(const scene::Node& node, scene::SceneBuilder& builde
   planned.models = [make = kind.make](std::size_t) {
     return StreetModels{{std::make_shared<scene::Model>(make())}};
   };
-  planned.series.seed = std::uint64_t(node.integer("seed"));
   if (read_circle(node, builder, planned.series)) builder.add(std::move(planned));
 }
 
@@ -237,7 +227,7 @@ std::vector<Repeated> what_is_repeated(const PlannedSeries& planned, std::size_t
 /// A grown plant at each place, of a few shapes.
 void plant_series(const PlannedSeries& planned, int maker, FreeGround& ground, scene::SceneBuilder& builder) {
   constexpr int shapes = 3;
-  Random random(planned.series.seed, 300);
+  Random random(synthesis::place_seed, 300);
   std::vector<vegetation::ScenePlant> plants;
   const std::size_t before = vegetation::scene_plants(builder.scene).size();
   for (const KerbPlace& place : take_kerb_places(builder.scene.roads, planned.series, ground)) {
@@ -260,7 +250,7 @@ void set_up(const PlannedSeries& planned, int maker, FreeGround& ground, scene::
   const std::vector<KerbPlace> places = take_kerb_places(builder.scene.roads, planned.series, ground);
   const std::vector<Repeated> repeated = what_is_repeated(planned, places.size(), builder);
   if (repeated.empty()) return;
-  Random random(planned.series.seed, 300);
+  Random random(synthesis::place_seed, 300);
   if (builder.scene.objects.size() + places.size() > max_objects)
     return builder.fail(error_at(planned.where_of,
                                  "{} places for a {} with {} objects in the scene; {} is the most. "

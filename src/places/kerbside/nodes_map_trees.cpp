@@ -19,6 +19,7 @@
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/scene_builder.h"
+#include "synthesis/place_seed.h"
 
 namespace parvis::kerbside {
 namespace {
@@ -37,7 +38,6 @@ struct PlannedTrees {
   static constexpr std::string_view name = "kerbside.planned_map_trees";
   static constexpr scene::DataRole role = scene::DataRole::settings;  // what stands is among the plants
   std::string of, target, kind;
-  std::uint64_t seed = 1;
   FileLocation where_of, where_target;
   /// Results by original, while somebody holds it: equal objects share the remaining model, also when they
   /// are rebuilt.
@@ -60,8 +60,7 @@ scene::NodeSchema grown_trees_schema() {
                              .by_default("SolitaryVegetationObject*"),
                          choice("kind", "of trees without a species",
                                 {"orange", "oak", "plane", "spruce", "pine"})
-                             .by_default("plane"),
-                         integer("seed", "another one, other shapes").between(0, 1e9).by_default("1")},
+                             .by_default("plane")},
           .example = "model(name=\"town\", file=\"town.osm\")\ngrownTrees(of=\"town\")",
           .is_laid_out_once = true};
 }
@@ -70,7 +69,6 @@ void build_grown_trees(const scene::Node& node, scene::SceneBuilder& builder) {
   builder.add(PlannedTrees{.of = node.text("of"),
                            .target = node.text("target"),
                            .kind = node.text("kind"),
-                           .seed = std::uint64_t(node.integer("seed")),
                            .where_of = node.where_of("of"),
                            .where_target = node.where_of("target")});
 }
@@ -103,7 +101,7 @@ void replace_model(scene::Object& object, const std::shared_ptr<const scene::Mod
 void plant_trees(const PlannedTrees& planned, const std::vector<MapTree>& trees, std::size_t object,
                  scene::SceneBuilder& builder) {
   const glm::mat4& world_from_model = builder.scene.objects[object].world_from_model;
-  Random random(planned.seed, 301);
+  Random random(synthesis::place_seed, 301);
   std::vector<vegetation::ScenePlant> plants;
   for (const MapTree& tree : trees) {
     vegetation::PlantRecipe recipe;
@@ -111,7 +109,7 @@ void plant_trees(const PlannedTrees& planned, const std::vector<MapTree>& trees,
     const float height_m = std::max(tree.height_m, recipe.kind->min_height_m);  // flat trees have none
     recipe.height_m = std::clamp(height_step_m * std::round(height_m / height_step_m),
                                  recipe.kind->min_height_m, recipe.kind->max_height_m);
-    recipe.seed = planned.seed + std::uint64_t(random.index(shapes_per_kind));
+    recipe.seed = synthesis::place_seed + std::uint64_t(random.index(shapes_per_kind));
     auto shape = vegetation::shared_plant(builder.scene.data<vegetation::PlantShelf>(), recipe);
     if (!shape) return builder.fail(shape.errors(), planned.where_of);
     const glm::mat4 placed = glm::rotate(glm::translate(world_from_model, tree.foot),
