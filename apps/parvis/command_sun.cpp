@@ -13,8 +13,8 @@
 #include "dates.h"
 #include "graphics/gl/context.h"
 #include "graphics/light/day_light.h"
-#include "graphics/light/sun_study.h"
 #include "machines/processes.h"
+#include "planning/sun_hours/sun_study.h"
 #include "scene/script/attribute.h"
 #include "scene_arguments.h"
 #include "stage/film.h"
@@ -49,9 +49,9 @@ light::PlaceAndTime read_place(const SunArguments& arguments, const scene::Scene
 }
 
 /// The period from --from to --to.
-Result<light::SunPeriod> read_period(const SunArguments& arguments, const scene::Scene& scene) {
+Result<sun_hours::SunPeriod> read_period(const SunArguments& arguments, const scene::Scene& scene) {
   const light::DayLight& day = scene.data<light::DayLight>();
-  light::SunPeriod period{.place = read_place(arguments, scene), .day_step = arguments.every};
+  sun_hours::SunPeriod period{.place = read_place(arguments, scene), .day_step = arguments.every};
   if (arguments.place.empty() && !day.is_given)
     return error(
         "the scene has no place on the earth: add dayLight(latitude=, longitude=) to it or give --place "
@@ -88,7 +88,7 @@ Result<std::vector<glm::dvec2>> read_outline(const SunArguments& arguments) {
       return error("--outline: the corner {:g} {:g} lies outside of --area: no hours are studied there",
                    corner.x, corner.y);
   }
-  Result<std::vector<glm::dvec2>> checked = light::checked_outline(std::move(corners));
+  Result<std::vector<glm::dvec2>> checked = sun_hours::checked_outline(std::move(corners));
   if (!checked) return error("--outline: {}", checked.errors().front().message);
   return checked;
 }
@@ -113,8 +113,9 @@ std::string judged_ground(const SunArguments& arguments) {
                      arguments.outline ? " in the outline" : "");
 }
 
-void print_rule(const SunArguments& arguments, const light::SunStudy& study, const light::SunPeriod& period) {
-  const light::OpenSpaceRule rule = light::open_space_rule(study);
+void print_rule(const SunArguments& arguments, const sun_hours::SunStudy& study,
+                const sun_hours::SunPeriod& period) {
+  const sun_hours::OpenSpaceRule rule = sun_hours::open_space_rule(study);
   if (rule.area_m2 == 0.0) {
     fmt::print("no open ground: the rule of BRE 209 does not apply\n");
     return;
@@ -174,20 +175,20 @@ Status study(const SunArguments& arguments) {
   if (!processes) return processes.errors();
   const Result<house::Play> play = arguments.scene.open_play();
   if (!play) return play.errors();
-  const Result<light::SunPeriod> period = read_period(arguments, play->scene);
+  const Result<sun_hours::SunPeriod> period = read_period(arguments, play->scene);
   if (!period) return period.errors();
-  light::SunStudyOptions options{.period = *period,
-                                 .cell_m = arguments.cell_m,
-                                 .area = {},
-                                 .has_facades = !arguments.is_ground_only,
-                                 .judged = {arguments.ground, *std::move(outline)},
-                                 .processes = *processes};
+  sun_hours::SunStudyOptions options{.period = *period,
+                                     .cell_m = arguments.cell_m,
+                                     .area = {},
+                                     .has_facades = !arguments.is_ground_only,
+                                     .judged = {arguments.ground, *std::move(outline)},
+                                     .processes = *processes};
   if (!arguments.area.empty())
     options.area = glm::dvec4(arguments.area[0], arguments.area[1], arguments.area[2], arguments.area[3]);
-  const Result<light::SunStudy> result = light::study_sun(as_it_stands(*play), options);
+  const Result<sun_hours::SunStudy> result = sun_hours::study_sun(as_it_stands(*play), options);
   if (!result) return result.errors();
   if (processes->is_first())
-    if (Status status = light::write_sun_study(arguments.output, *result); !status) return status;
+    if (Status status = sun_hours::write_sun_study(arguments.output, *result); !status) return status;
   processes->leave();
 
   if (result->covered_m2 > 0.0)

@@ -58,14 +58,14 @@ Result<plan_drawing::SheetPicture> draw(house::Stage& stage, const std::string& 
 }
 
 /// A day of the scene's place, and its name; an empty name: the scene has no place on the earth.
-Result<std::pair<light::SunPeriod, std::string>> period_of(const scene::Scene& scene,
-                                                           const std::string& day) {
+Result<std::pair<sun_hours::SunPeriod, std::string>> period_of(const scene::Scene& scene,
+                                                               const std::string& day) {
   constexpr std::array months{"January", "February", "March",     "April",   "May",      "June",
                               "July",    "August",   "September", "October", "November", "December"};
   const Result<std::pair<int, int>> date = read_date(day);
   if (!date) return date.errors();
   const light::DayLight& light = scene.data<light::DayLight>();
-  light::SunPeriod period;
+  sun_hours::SunPeriod period;
   if (!light.is_given) return std::pair(period, std::string());
   period.place = light.when;
   period.place.true_north_deg = scene.true_north_deg;

@@ -6,9 +6,9 @@
 #include "base/parallel.h"
 #include "bench/light/exact_sun.h"
 #include "bench/parts.h"
-#include "graphics/light/sun_study.h"
 #include "graphics/light/test_worse.h"
 #include "places/paper_city/street_plan.h"
+#include "planning/sun_hours/sun_study.h"
 
 namespace parvis::bench {
 namespace {
@@ -17,7 +17,7 @@ using light::worse;
 
 /// A point of a sun study, as it looks for the sun, and the hours that the study found there.
 struct StudiedPoint {
-  light::SunPoint point;
+  sun_hours::SunPoint point;
   float hours;
 };
 
@@ -36,22 +36,23 @@ scene::Scene houses_of(const scene::Scene& twin) {
   return houses;
 }
 
-StudiedPoints points_of(const light::SunStudy& study, const DoubleTracer& houses) {
+StudiedPoints points_of(const sun_hours::SunStudy& study, const DoubleTracer& houses) {
   constexpr float max_rise = 0.3f;  // of a facade's normal
   constexpr float min_height_m = 3.0f;
   constexpr double reach_m = 0.03;  // more than points are lifted
-  const auto is_of_facade = [&](const light::SunPoint& point) {
+  const auto is_of_facade = [&](const sun_hours::SunPoint& point) {
     if (std::abs(point.normal.z) >= max_rise || point.position.z < min_height_m) return false;
     const auto below =
         houses.nearest(glm::dvec3(point.position), -glm::dvec3(point.normal), 0.0, StoppedBy::both);
     return below && below->distance_m < reach_m;
   };
   StudiedPoints points;
-  for (const light::GroundCell& cell : study.cells)
-    if (cell.kind != light::GroundCell::Kind::nothing)
-      points.cells.push_back({light::lifted(cell.position, {0, 0, 1}), cell.hours});
+  for (const sun_hours::GroundCell& cell : study.cells)
+    if (cell.kind != sun_hours::GroundCell::Kind::nothing)
+      points.cells.push_back({sun_hours::lifted(cell.position, {0, 0, 1}), cell.hours});
   for (std::size_t i = 0; i < study.surfaces.positions.size(); ++i) {
-    const light::SunPoint point = light::lifted(study.surfaces.positions[i], study.surfaces.normals[i]);
+    const sun_hours::SunPoint point =
+        sun_hours::lifted(study.surfaces.positions[i], study.surfaces.normals[i]);
     (is_of_facade(point) ? points.facades : points.others).push_back({point, study.surface_hours[i]});
   }
   return points;
@@ -99,17 +100,17 @@ struct HoursOff {
   double percent() const { return 100.0 * off / all; }
 };
 
-light::SunStudyOptions options_of(int day) {
+sun_hours::SunStudyOptions options_of(int day) {
   constexpr double half_m = 60.0;
   const glm::dvec2 middle(city::main_crossing());
-  light::SunStudyOptions options;
+  sun_hours::SunStudyOptions options;
   options.period = {.place = {.day_of_year = day}, .first_day = day, .last_day = day};
   options.area = glm::dvec4(middle - half_m, middle + half_m);
   return options;
 }
 
 /// The study whose rays ask once an hour.
-light::SunPeriod hourly(light::SunPeriod period) {
+sun_hours::SunPeriod hourly(sun_hours::SunPeriod period) {
   period.step_h = 1.0, period.bisections = 0;
   return period;
 }
@@ -120,24 +121,24 @@ void measure_under_trees(const std::vector<int>& days, const scene::Scene& city,
   scene::Scene still = city;
   std::erase_if(still.objects, [](const scene::Object& object) { return object.is_dynamic; });
   const reference::RayScene rays(still);
-  const auto is_under_leaves = [&](const light::SunPoint& point) {
+  const auto is_under_leaves = [&](const sun_hours::SunPoint& point) {
     const auto above = rays.nearest_hit({point.position, {0, 0, 1}, 0.0f, 1e30f});
     return above && above->place->material->alpha_mode != scene::Alpha::opaque;
   };
   double maximum = 0.0, max_hourly = 0.0;
   for (const int day : days) {
-    light::SunStudyOptions options = options_of(day);
+    sun_hours::SunStudyOptions options = options_of(day);
     options.cell_m = 1.0, options.has_facades = false;
-    const auto study = must(light::study_sun(still, options));
-    std::vector<light::SunPoint> points;
+    const auto study = must(sun_hours::study_sun(still, options));
+    std::vector<sun_hours::SunPoint> points;
     std::vector<float> studied;
-    for (const light::GroundCell& cell : study.cells) {
-      if (cell.kind != light::GroundCell::Kind::ground) continue;
-      const light::SunPoint point = light::lifted(cell.position, {0, 0, 1});
+    for (const sun_hours::GroundCell& cell : study.cells) {
+      if (cell.kind != sun_hours::GroundCell::Kind::ground) continue;
+      const sun_hours::SunPoint point = sun_hours::lifted(cell.position, {0, 0, 1});
       if (is_under_leaves(point)) points.push_back(point), studied.push_back(cell.hours);
     }
-    const std::vector<float> truth = light::sun_hours_by_minutes(rays, points, options.period),
-                             by_hours = light::sun_hours(rays, points, hourly(options.period));
+    const std::vector<float> truth = sun_hours::sun_hours_by_minutes(rays, points, options.period),
+                             by_hours = sun_hours::sun_hours(rays, points, hourly(options.period));
     HoursOff off, off_hourly;
     for (std::size_t i = 0; i < points.size(); ++i)
       off.add(double(studied[i]), double(truth[i])), off_hourly.add(double(by_hours[i]), double(truth[i]));
@@ -160,10 +161,10 @@ void measure_sun_hours(const BenchSetup& setup, Report& report) {
   const std::size_t wanted = setup.is_quick ? 400 : 4000;
   double maximum = 0.0, max_of_facades = 0.0, max_hourly = 0.0, max_hourly_of_facades = 0.0;
   for (const int day : days) {
-    light::SunStudyOptions options = options_of(day);
-    const auto study = must(light::study_sun(twin, options));
+    sun_hours::SunStudyOptions options = options_of(day);
+    const auto study = must(sun_hours::study_sun(twin, options));
     options.period = hourly(options.period);
-    const auto hourly_study = must(light::study_sun(twin, options));
+    const auto hourly_study = must(sun_hours::study_sun(twin, options));
     const StudiedPoints points = points_of(study, houses), hourly_points = points_of(hourly_study, houses);
     HoursOff all, all_hourly, facades, facades_hourly;
     std::string counts;

@@ -5,9 +5,9 @@
 #include <map>
 
 #include "base/files.h"
-#include "graphics/light/sun_plan.h"
 #include "planning/plan_drawing/cairo_module.h"
 #include "planning/plan_drawing/plan_files.h"
+#include "planning/sun_hours/sun_plan.h"
 
 namespace parvis::plan_drawing {
 namespace {
@@ -69,7 +69,7 @@ SunPictures sun_pictures(const SunDifference& sun) {
   made.max_change_h = std::max(1.0, std::ceil(made.max_change_h));
   const auto hours = [&](const std::vector<float>& of) {
     return picture_of(
-        sun, [&](std::size_t cell) { return light::hours_colour(double(of[cell]) / sun.max_hours); });
+        sun, [&](std::size_t cell) { return sun_hours::hours_colour(double(of[cell]) / sun.max_hours); });
   };
   made.before = hours(sun.before), made.after = hours(sun.after);
   made.change = picture_of(sun, [&](std::size_t cell) {
@@ -78,7 +78,7 @@ SunPictures sun_pictures(const SunDifference& sun) {
   made.hours_scale = made.change_scale = Image8(scale_px, 1, 3);
   for (int x = 0; x < scale_px; ++x) {
     const double share = (x + 0.5) / scale_px;
-    put(made.hours_scale, x, 0, light::hours_colour(share));
+    put(made.hours_scale, x, 0, sun_hours::hours_colour(share));
     put(made.change_scale, x, 0, change_colour(2.0 * share - 1.0));
   }
   const double mean_before = sun.mean_hours(sun.before), mean_after = sun.mean_hours(sun.after);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "graphics/light/sun_study.h"
+#include "planning/sun_hours/sun_study.h"
 
 namespace parvis::plan_drawing {
 namespace {
@@ -13,11 +13,11 @@ scene::Scene at_rest(scene::Scene scene) {
   return scene;
 }
 
-std::vector<float> hours_on(const scene::Scene& scene, const std::vector<light::SunPoint>& points,
-                            const light::SunPeriod& period) {
+std::vector<float> hours_on(const scene::Scene& scene, const std::vector<sun_hours::SunPoint>& points,
+                            const sun_hours::SunPeriod& period) {
   const scene::Scene still = at_rest(scene);
   const reference::RayScene rays(still);
-  return light::sun_hours(rays, points, period);
+  return sun_hours::sun_hours(rays, points, period);
 }
 
 }  // namespace
@@ -50,18 +50,18 @@ double SunDifference::area_changed_m2(double by_h) const {
 }
 
 Result<SunDifference> sun_difference(const scene::Scene& bare, const scene::Scene& before,
-                                     const scene::Scene& after, const light::SunPeriod& period,
+                                     const scene::Scene& after, const sun_hours::SunPeriod& period,
                                      const glm::dvec4& area, double cell_m) {
-  const light::SunStudyOptions options{
+  const sun_hours::SunStudyOptions options{
       .period = period, .cell_m = cell_m, .area = area, .has_facades = false, .judged = {}, .processes = {}};
-  const Result<light::SunStudy> study = light::study_sun(at_rest(bare), options);
+  const Result<sun_hours::SunStudy> study = sun_hours::study_sun(at_rest(bare), options);
   if (!study) return study.errors();
   SunDifference made;
   made.columns = study->columns, made.rows = study->rows, made.corner = study->corner;
   made.cell_m = study->cell_m, made.max_hours = study->max_hours;
-  std::vector<light::SunPoint> points;
-  for (const light::GroundCell& cell : study->cells) {
-    const bool is_ground = cell.kind == light::GroundCell::Kind::ground;
+  std::vector<sun_hours::SunPoint> points;
+  for (const sun_hours::GroundCell& cell : study->cells) {
+    const bool is_ground = cell.kind == sun_hours::GroundCell::Kind::ground;
     made.is_ground.push_back(is_ground ? 1 : 0);
     if (is_ground) points.push_back({cell.position + glm::vec3(0.0f, 0.0f, sun_above_ground_m), {0, 0, 1}});
   }

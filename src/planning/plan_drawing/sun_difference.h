@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "graphics/light/sun_hours.h"
+#include "planning/sun_hours/sun_hours.h"
 #include "scene/data/scene.h"
 
 namespace parvis::plan_drawing {
@@ -34,7 +34,7 @@ inline constexpr float sun_above_ground_m = 0.1f;
 /// The ground of `bare`, the place without both designs, in the sun of the place with either. `area`: x and y
 /// of its least and greatest corner. Things that move cast no shadow. Errors: no ground there, as study_sun.
 Result<SunDifference> sun_difference(const scene::Scene& bare, const scene::Scene& before,
-                                     const scene::Scene& after, const light::SunPeriod& period,
+                                     const scene::Scene& after, const sun_hours::SunPeriod& period,
                                      const glm::dvec4& area, double cell_m);
 
 }  // namespace parvis::plan_drawing

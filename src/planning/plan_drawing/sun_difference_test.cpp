@@ -9,8 +9,8 @@
 namespace parvis::plan_drawing {
 namespace {
 
-light::SunPeriod equinox() {
-  light::SunPeriod period;
+sun_hours::SunPeriod equinox() {
+  sun_hours::SunPeriod period;
   period.place.year = 2026, period.place.latitude_deg = 43.7, period.place.longitude_deg = 7.27;
   period.place.time_zone_h = 1.0;
   period.first_day = period.last_day = 80;

@@ -137,7 +137,7 @@ VirtualObjects::VirtualObjects(const scene::Scene& scene, ReflectorsByModel refl
 }
 
 /// Reflectors among new objects are those of models that are known: for others a method is made
-/// (house/stage).
+/// (stage).
 void VirtualObjects::follow_objects(const scene::Scene& scene) {
   for (std::size_t o = model_of_object_.size(); o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];

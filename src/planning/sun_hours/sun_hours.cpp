@@ -1,11 +1,11 @@
-#include "graphics/light/sun_hours.h"
+#include "planning/sun_hours/sun_hours.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"
 
-namespace parvis::light {
+namespace parvis::sun_hours {
 namespace {
 
 /// One day's suns at equal steps, and finer ones between them, so that points need not ask where the sun
@@ -21,12 +21,12 @@ std::vector<Day> days_of(const SunPeriod& period, double step_h, int parts) {
   std::vector<Day> days;
   for (int first = period.first_day; first <= period.last_day; first += period.day_step) {
     const int count = std::min(period.day_step, period.last_day - first + 1);
-    PlaceAndTime when = period.place;
+    light::PlaceAndTime when = period.place;
     when.day_of_year = first + count / 2;
-    for (; when.day_of_year > days_in_year(when.year); ++when.year)
-      when.day_of_year -= days_in_year(when.year);
+    for (; when.day_of_year > light::days_in_year(when.year); ++when.year)
+      when.day_of_year -= light::days_in_year(when.year);
     Day day{.suns = {}, .counts = {}, .fine_h = step_h / parts, .days = count};
-    const DaylightHours light = daylight_hours(when);
+    const light::DaylightHours light = light::daylight_hours(when);
     if (light.is_polar_night()) {
       days.push_back(day);
       continue;
@@ -36,7 +36,7 @@ std::vector<Day> days_of(const SunPeriod& period, double step_h, int parts) {
     day.fine_h = (to - from) / (steps * parts);
     for (int i = 0; i <= steps * parts; ++i) {
       when.time_of_day_h = from + i * day.fine_h;
-      const SolarPosition sun = sun_of(when);
+      const light::SolarPosition sun = light::sun_of(when);
       day.suns.push_back(glm::vec3(sun.direction()));
       day.counts.push_back(sun.elevation_deg() >= period.min_elevation_deg);
     }
@@ -108,4 +108,4 @@ std::vector<float> sun_hours_by_minutes(const reference::RayScene& scene, const 
   return hours(scene, points, every_day, 1.0 / 60.0, 1);
 }
 
-}  // namespace parvis::light
+}  // namespace parvis::sun_hours

@@ -1,10 +1,10 @@
-#include "graphics/light/finer_mesh.h"
+#include "planning/sun_hours/finer_mesh.h"
 
 #include <algorithm>
 #include <array>
 #include <unordered_map>
 
-namespace parvis::light {
+namespace parvis::sun_hours {
 namespace {
 
 /// Vertices in the middle of edges, found again by the two that they lie between.
@@ -80,4 +80,4 @@ void append_finer(Mesh& result, const Mesh& mesh, float max_edge_m, glm::vec2 lo
   append_used(result, fine);
 }
 
-}  // namespace parvis::light
+}  // namespace parvis::sun_hours

@@ -1,4 +1,4 @@
-#include "graphics/light/sun_hours.h"
+#include "planning/sun_hours/sun_hours.h"
 
 #include <gtest/gtest.h>
 
@@ -10,28 +10,28 @@
 #include "base/files.h"
 #include "base/image_io.h"
 #include "base/test_folder.h"
-#include "graphics/light/finer_mesh.h"
-#include "graphics/light/sun_ground.h"
-#include "graphics/light/sun_plan.h"
-#include "graphics/light/sun_study.h"
 #include "graphics/light/test_box.h"
+#include "planning/sun_hours/finer_mesh.h"
+#include "planning/sun_hours/sun_ground.h"
+#include "planning/sun_hours/sun_plan.h"
+#include "planning/sun_hours/sun_study.h"
 #include "scene/data/surroundings.h"
 #include "scene/data/test_scene.h"
 
-namespace parvis::light {
+namespace parvis::sun_hours {
 namespace {
 
 const SunPeriod at_equinox{.place = {.day_of_year = 80}, .first_day = 80, .last_day = 80};
 
 TEST(SunHours, AnOpenPlainHasTheWholeDay) {
-  const scene::Scene scene = box_on_a_plain({20, 20, 0}, {21, 21, 1});
+  const scene::Scene scene = light::box_on_a_plain({20, 20, 0}, {21, 21, 1});
   const reference::RayScene rays(scene);
   const std::vector<float> hours = sun_hours(rays, {{{-20, -20, 0.02f}, {0, 0, 1}}}, at_equinox);
   EXPECT_NEAR(hours[0], 12.1f, 0.1f);
 }
 
 TEST(SunHours, WallsFaceTheirHalfOfTheDay) {
-  const scene::Scene scene = box_on_a_plain({-5, -5, 0}, {5, 5, 20});
+  const scene::Scene scene = light::box_on_a_plain({-5, -5, 0}, {5, 5, 20});
   const reference::RayScene rays(scene);
   const std::vector<float> hours = sun_hours(rays,
                                              {{{0, -5.02f, 10}, {0, -1, 0}},
@@ -49,7 +49,7 @@ TEST(SunHours, TheShadowOfAWallIsWhereTrigonometryPutsIt) {
   // North of a long wall 10 m high the noon shadow of the equinox at 43.7 degrees is 10 * tan(43.7) = 9.6 m
   // long, and at the equinox a straight wall that runs east and west casts one of constant length: shade all
   // day within, sun all day beyond.
-  const scene::Scene scene = box_on_a_plain({-2000, -1, 0}, {2000, 0, 10});
+  const scene::Scene scene = light::box_on_a_plain({-2000, -1, 0}, {2000, 0, 10});
   const reference::RayScene rays(scene);
   const std::vector<float> hours =
       sun_hours(rays, {{{0, 6.0f, 0.02f}, {0, 0, 1}}, {{0, 10.2f, 0.02f}, {0, 0, 1}}}, at_equinox);
@@ -58,7 +58,7 @@ TEST(SunHours, TheShadowOfAWallIsWhereTrigonometryPutsIt) {
 }
 
 TEST(SunHours, AgreesWithRaysEveryMinute) {
-  const scene::Scene scene = box_on_a_plain({-4, -3, 0}, {5, 6, 14});
+  const scene::Scene scene = light::box_on_a_plain({-4, -3, 0}, {5, 6, 14});
   const reference::RayScene rays(scene);
   std::vector<SunPoint> points;
   for (float x = -28; x < 28; x += 3)
@@ -79,21 +79,21 @@ TEST(SunHours, AgreesWithRaysEveryMinute) {
 TEST(SunHours, ADayWhoseNightLiesOnOneDateHasAllButThatNight) {
   // Longyearbyen on 18 April 2026: the sun sets at 00:12 by summer time and rises at 01:39.
   const SunPeriod day{.place = {78.2232, 15.6267, 2.0, 2026, 108, 12.0}, .first_day = 108, .last_day = 108};
-  const scene::Scene scene = box_on_a_plain({20, 20, 0}, {21, 21, 1});
+  const scene::Scene scene = light::box_on_a_plain({20, 20, 0}, {21, 21, 1});
   const reference::RayScene rays(scene);
   const std::vector<float> hours = sun_hours(rays, {{{-20, -20, 0.02f}, {0, 0, 1}}}, day);
   EXPECT_NEAR(hours[0], 22.4f, 0.3f);
 }
 
 TEST(SunHours, PolarNightHasNone) {
-  const scene::Scene scene = box_on_a_plain({20, 20, 0}, {21, 21, 1});
+  const scene::Scene scene = light::box_on_a_plain({20, 20, 0}, {21, 21, 1});
   const reference::RayScene rays(scene);
   SunPeriod winter{.place = {.latitude_deg = 78.2, .longitude_deg = 15.6}, .first_day = 350, .last_day = 352};
   EXPECT_EQ(sun_hours(rays, {{{0, 0, 0.02f}, {0, 0, 1}}}, winter)[0], 0.0f);
 }
 
 TEST(SunHours, ASeasonGoesOnIntoTheNextYear) {
-  const scene::Scene scene = box_on_a_plain({20, 20, 0}, {21, 21, 1});
+  const scene::Scene scene = light::box_on_a_plain({20, 20, 0}, {21, 21, 1});
   const reference::RayScene rays(scene);
   const std::vector<SunPoint> plain{{{-20, -20, 0.02f}, {0, 0, 1}}};
   const auto hours = [&](int year, int first_day, int last_day) {
@@ -133,7 +133,7 @@ TEST(SunStudy, PhotographedSurfacesHaveHours) {
 
 /// A photographed place ends in a dome over everything, and so does a model that was made of one.
 TEST(SunStudy, ABackdropHidesNoSun) {
-  const scene::Scene plain = box_on_a_plain({20, 20, 0}, {21, 21, 1});
+  const scene::Scene plain = light::box_on_a_plain({20, 20, 0}, {21, 21, 1});
   const auto sky = std::make_shared<Mesh>();
   sky->positions = {{-300, -300, 90}, {-300, 300, 90}, {300, 300, 90}, {300, -300, 90}};
   sky->normals.assign(4, {0, 0, -1}), sky->uvs.assign(4, {0, 0});
@@ -173,7 +173,7 @@ TEST(SunStudy, ABackdropHidesNoSun) {
 }
 
 TEST(SunStudy, PlanTableAndModel) {
-  const scene::Scene scene = box_on_a_plain({-4, -3, 0}, {5, 6, 14});
+  const scene::Scene scene = light::box_on_a_plain({-4, -3, 0}, {5, 6, 14});
   const Result<SunStudy> study =
       study_sun(scene, {.period = at_equinox, .cell_m = 2.0, .area = {}, .has_facades = true});
   ASSERT_TRUE(study) << to_string(study.errors());
@@ -218,7 +218,7 @@ TEST(SunStudy, PlanTableAndModel) {
 }
 
 TEST(SunStudy, LandToTheHorizonIsNoPartOfThePlace) {
-  scene::Scene scene = box_on_a_plain({-4, -3, 0}, {5, 6, 14});
+  scene::Scene scene = light::box_on_a_plain({-4, -3, 0}, {5, 6, 14});
   const auto land = std::make_shared<scene::Model>();
   land->materials.push_back(scene::matt(glm::vec3(0.5f)));
   scene::Part part;
@@ -238,7 +238,7 @@ TEST(SunStudy, LandToTheHorizonIsNoPartOfThePlace) {
 
 TEST(SunStudy, ACourtyardWithoutSunBreaksTheRule) {
   // A deck over most of the plain.
-  const scene::Scene scene = box_on_a_plain({-29, -29, 3}, {29, 29, 60});
+  const scene::Scene scene = light::box_on_a_plain({-29, -29, 3}, {29, 29, 60});
   const Result<SunStudy> study =
       study_sun(scene, {.period = at_equinox, .cell_m = 1.0, .area = {}, .has_facades = false});
   ASSERT_TRUE(study) << to_string(study.errors());
@@ -247,7 +247,7 @@ TEST(SunStudy, ACourtyardWithoutSunBreaksTheRule) {
 }
 
 TEST(SunStudy, RefusesWhatItCannotHold) {
-  const scene::Scene scene = box_on_a_plain({-4, -3, 0}, {5, 6, 14});
+  const scene::Scene scene = light::box_on_a_plain({-4, -3, 0}, {5, 6, 14});
   const auto study =
       study_sun(scene, {.period = at_equinox, .cell_m = 0.001, .area = {}, .has_facades = true});
   ASSERT_FALSE(study);
@@ -273,7 +273,7 @@ scene::Object slab(const std::string& name, glm::vec2 low, glm::vec2 high, float
 
 /// A wall of 60 m that runs east and west, a plain about it, and a roof 14 m over the plain in the south.
 scene::Scene wall_and_roof() {
-  scene::Scene scene = box_on_a_plain({-30, 0, 0}, {30, 1, 40});
+  scene::Scene scene = light::box_on_a_plain({-30, 0, 0}, {30, 1, 40});
   scene.objects.push_back(slab("roof garden", {-10, -25}, {10, -15}, 14.0f));
   return scene;
 }
@@ -425,4 +425,4 @@ TEST(FinerMesh, CoversTheSameArea) {
 }
 
 }  // namespace
-}  // namespace parvis::light
+}  // namespace parvis::sun_hours

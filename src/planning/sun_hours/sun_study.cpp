@@ -1,4 +1,4 @@
-#include "graphics/light/sun_study.h"
+#include "planning/sun_hours/sun_study.h"
 
 #include <fmt/format.h>
 
@@ -15,12 +15,12 @@
 #include "base/image_io.h"
 #include "base/parallel.h"
 #include "formats/gltf/gltf_writer.h"
-#include "graphics/light/finer_mesh.h"
-#include "graphics/light/sun_plan.h"
+#include "planning/sun_hours/finer_mesh.h"
+#include "planning/sun_hours/sun_plan.h"
 #include "scene/data/surroundings.h"
 #include "scene/data/traced_scene.h"
 
-namespace parvis::light {
+namespace parvis::sun_hours {
 namespace {
 
 constexpr std::size_t max_cells = 16'000'000, max_vertices = 12'000'000;
@@ -351,4 +351,4 @@ Status write_sun_study(const std::filesystem::path& prefix, const SunStudy& stud
   return write_together(files, [&] { return write_model(with(".glb"), study); });
 }
 
-}  // namespace parvis::light
+}  // namespace parvis::sun_hours

@@ -10,12 +10,12 @@
 
 #include "base/image.h"
 #include "base/mesh.h"
-#include "graphics/light/sun_ground.h"
-#include "graphics/light/sun_hours.h"
 #include "machines/processes.h"
+#include "planning/sun_hours/sun_ground.h"
+#include "planning/sun_hours/sun_hours.h"
 #include "scene/data/scene.h"
 
-namespace parvis::light {
+namespace parvis::sun_hours {
 
 struct SunStudyOptions {
   SunPeriod period;
@@ -80,4 +80,4 @@ std::string to_string(const OpenSpaceRule& rule);
 /// holds).
 Status write_sun_study(const std::filesystem::path& prefix, const SunStudy& study);
 
-}  // namespace parvis::light
+}  // namespace parvis::sun_hours

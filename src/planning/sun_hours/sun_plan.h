@@ -2,9 +2,9 @@
 #pragma once
 
 #include "base/image.h"
-#include "graphics/light/sun_study.h"
+#include "planning/sun_hours/sun_study.h"
 
-namespace parvis::light {
+namespace parvis::sun_hours {
 
 /// The colour of a number of hours, 0 to 255 in sRGB, as a share of the most: dark blue for none, over green,
 /// to yellow.
@@ -21,4 +21,4 @@ struct SunPlan {
 /// Cells are as large as makes the plan about 1,200 pixels long, and at most 16 pixels; 1 in longer plans.
 SunPlan sun_plan(const SunStudy& study);
 
-}  // namespace parvis::light
+}  // namespace parvis::sun_hours

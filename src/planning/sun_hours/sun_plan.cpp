@@ -1,11 +1,11 @@
-#include "graphics/light/sun_plan.h"
+#include "planning/sun_hours/sun_plan.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/image_text.h"
 
-namespace parvis::light {
+namespace parvis::sun_hours {
 namespace {
 
 constexpr int wanted_px = 1200, max_cell_px = 16;
@@ -114,4 +114,4 @@ SunPlan sun_plan(const SunStudy& study) {
   return plan;
 }
 
-}  // namespace parvis::light
+}  // namespace parvis::sun_hours

@@ -8,7 +8,7 @@
 #include "graphics/light/day_light_time.h"
 #include "graphics/reference/ray_scene.h"
 
-namespace parvis::light {
+namespace parvis::sun_hours {
 
 /// A point of a surface, lifted off it, and the surface's unit normal.
 struct SunPoint {
@@ -17,7 +17,7 @@ struct SunPoint {
 
 /// Which suns count.
 struct SunPeriod {
-  PlaceAndTime place;  ///< year and clock too; day and hour do not count
+  light::PlaceAndTime place;  ///< year and clock too; day and hour do not count
   /// Days of the year, both included; `last_day` >= `first_day`, and beyond the year's days in the next ones.
   int first_day = 80, last_day = 80;
   int day_step = 1;                ///< every so many days stands for those around it
@@ -38,4 +38,4 @@ std::vector<float> sun_hours(const reference::RayScene& scene, const std::vector
 std::vector<float> sun_hours_by_minutes(const reference::RayScene& scene, const std::vector<SunPoint>& points,
                                         const SunPeriod& period);
 
-}  // namespace parvis::light
+}  // namespace parvis::sun_hours

@@ -10,7 +10,7 @@
 #include "graphics/reference/ray_scene.h"
 #include "scene/data/scene.h"
 
-namespace parvis::light {
+namespace parvis::sun_hours {
 
 /// The part of the ground that is judged. Both together: the part that lies in both.
 struct JudgedGround {
@@ -45,4 +45,4 @@ class NamedSurfaces {
   std::vector<std::uint8_t> things_;              ///< beyond the objects: of what rooms draw by themselves
 };
 
-}  // namespace parvis::light
+}  // namespace parvis::sun_hours

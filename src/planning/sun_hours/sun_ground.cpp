@@ -1,4 +1,4 @@
-#include "graphics/light/sun_ground.h"
+#include "planning/sun_hours/sun_ground.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "scene/data/model_parts.h"
 #include "scene/data/name_pattern.h"
 
-namespace parvis::light {
+namespace parvis::sun_hours {
 namespace {
 
 constexpr std::size_t max_corners = 1'000;
@@ -145,4 +145,4 @@ bool NamedSurfaces::has(const reference::PlacedPart& place) const {
   return thing < things_.size() && things_[thing] != 0;
 }
 
-}  // namespace parvis::light
+}  // namespace parvis::sun_hours
