@@ -1,7 +1,7 @@
 #include "capture/photographs/oriented_points.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -55,29 +55,11 @@ glm::dvec3 towards_cameras(const SparsePoint& point, const PhotographSet& set) {
 
 }  // namespace
 
-Eigensystem eigen_of(glm::dmat3 m) {
-  glm::dmat3 vectors(1.0);
-  for (int sweep = 0; sweep < 12; ++sweep)
-    for (int p = 0; p < 2; ++p)
-      for (int q = p + 1; q < 3; ++q) {
-        if (std::abs(m[q][p]) < 1e-300) continue;
-        const double theta = 0.5 * (m[q][q] - m[p][p]) / m[q][p];
-        const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
-        const double c = 1.0 / std::sqrt(t * t + 1.0), s = t * c;
-        glm::dmat3 turn(1.0);
-        turn[p][p] = turn[q][q] = c;
-        turn[q][p] = s;
-        turn[p][q] = -s;
-        m = glm::transpose(turn) * m * turn;
-        vectors = vectors * turn;
-      }
-  std::array<int, 3> order{0, 1, 2};
-  std::ranges::sort(order, {}, [&](int i) { return m[i][i]; });
+Eigensystem eigen_of(const glm::dmat3& m) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver{Eigen::Map<const Eigen::Matrix3d>(&m[0][0])};
   Eigensystem result;
-  for (int i = 0; i < 3; ++i) {
-    result.values[i] = m[order[std::size_t(i)]][order[std::size_t(i)]];
-    result.vectors[i] = vectors[order[std::size_t(i)]];
-  }
+  Eigen::Map<Eigen::Vector3d>(&result.values[0]) = solver.eigenvalues();
+  Eigen::Map<Eigen::Matrix3d>(&result.vectors[0][0]) = solver.eigenvectors();
   return result;
 }
 

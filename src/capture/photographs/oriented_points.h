@@ -9,13 +9,13 @@
 
 namespace parvis::photographs {
 
-/// Eigenvalues (rising) and unit eigenvectors of a symmetric matrix, by Jacobi's rotations.
+/// Eigenvalues (rising) and unit eigenvectors of a symmetric matrix.
 struct Eigensystem {
   glm::dvec3 values;
   glm::dmat3 vectors;  ///< columns, in the order of the values
 };
 /// The eigensystem of a symmetric matrix with finite entries.
-Eigensystem eigen_of(glm::dmat3 m);
+Eigensystem eigen_of(const glm::dmat3& m);
 
 /// A point with the plane of its neighbours.
 struct OrientedPoint {
