@@ -9,8 +9,8 @@
 
 #include "bench/parts.h"
 #include "planning/design/preview.h"
-#include "planning/design/random_commands.h"
 #include "planning/design/scene_surfaces.h"
+#include "planning/design/test_random_commands.h"
 
 namespace parvis::bench {
 namespace {

@@ -68,12 +68,6 @@ Result<std::vector<Picture>> faces_of_panorama(const Image8& panorama, const std
   return pictures;
 }
 
-std::vector<Photograph> face_cameras(const std::string& name, int side, glm::dvec3 position) {
-  std::vector<Photograph> cameras;
-  for (const Face& face : faces) cameras.push_back(photograph_of_face(face, name, side, position));
-  return cameras;
-}
-
 Result<PhotographSet> write_faces(std::vector<Picture> pictures, const std::filesystem::path& folder) {
   std::error_code code;
   std::filesystem::create_directories(folder, code);

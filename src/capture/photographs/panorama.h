@@ -18,9 +18,6 @@ namespace parvis::photographs {
 Result<std::vector<Picture>> faces_of_panorama(const Image8& panorama, const std::string& name,
                                                glm::dvec3 position, double heading_deg = 0.0);
 
-/// The cameras of a panorama's faces, of side x side pixels.
-std::vector<Photograph> face_cameras(const std::string& name, int side, glm::dvec3 position);
-
 /// Writes faces as files of their names into `folder` and returns them as a set without points. Faces with
 /// transparent pixels get masks in the folder "masks" beside it; those without any other are left out.
 Result<PhotographSet> write_faces(std::vector<Picture> faces, const std::filesystem::path& folder);

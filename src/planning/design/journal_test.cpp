@@ -11,8 +11,8 @@
 
 #include "base/files.h"
 #include "planning/design/design_file.h"
-#include "planning/design/random_commands.h"
 #include "planning/design/test_design.h"
+#include "planning/design/test_random_commands.h"
 
 namespace parvis::design {
 namespace {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "base/colour.h"
-#include "planning/design/random_commands.h"
 #include "planning/design/shape_models.h"
 #include "planning/design/test_design.h"
+#include "planning/design/test_random_commands.h"
 
 namespace parvis::design {
 namespace {

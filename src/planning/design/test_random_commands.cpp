@@ -1,4 +1,4 @@
-#include "planning/design/random_commands.h"
+#include "planning/design/test_random_commands.h"
 
 #include <array>
 
