@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/colour.h"
+#include "base/median.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "capture/facades/sightings.h"
@@ -40,9 +41,7 @@ void improve(const std::vector<Sightings>& points, std::size_t c, std::vector<Ba
   for (const Sightings& point : points) {
     std::vector<double> values;
     for (const Sighting& s : point) values.push_back(balanced(balances[s.photo], s, c));
-    std::vector<double> sorted = values;
-    std::ranges::nth_element(sorted, sorted.begin() + std::ptrdiff_t(sorted.size() / 2));
-    const double common = sorted[sorted.size() / 2];
+    const double common = median(values);
     for (std::size_t k = 0; k < point.size(); ++k) {
       const double x = point[k].srgb[int(c)];
       if (x < 0.02 || x > 0.98) continue;  // clipped: its value says nothing about the exposure

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/median.h"
 #include "base/parallel.h"
 #include "capture/facades/blend.h"
 
@@ -42,12 +43,6 @@ ImageF cells_of(const PreparedPhoto& photo) {
   return cells;
 }
 
-float median(std::vector<float>& values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// Logarithm of the factor that turns a cell's light into that of most photographs; 0: it stays.
 float log_gain(std::span<const PreparedPhoto> photos, std::span<const ImageF> cells, std::size_t own,
                glm::vec3 own_colour, glm::dvec3 point) {
@@ -70,7 +65,7 @@ float log_gain(std::span<const PreparedPhoto> photos, std::span<const ImageF> ce
   }
   if (seen[0].size() < min_light_witnesses) return 0.0f;
   glm::vec3 gain;
-  for (std::size_t c = 0; c < 3; ++c) gain[int(c)] = median(seen[c]) - own_colour[int(c)];
+  for (std::size_t c = 0; c < 3; ++c) gain[int(c)] = median(std::move(seen[c])) - own_colour[int(c)];
   const float least = std::min({gain.x, gain.y, gain.z}), most = std::max({gain.x, gain.y, gain.z});
   if (most - least > max_colour_change || least * most < 0.0f) return 0.0f;
   const float mean = (gain.x + gain.y + gain.z) / 3.0f;

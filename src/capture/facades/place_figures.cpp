@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/image_io.h"
+#include "base/median.h"
 #include "capture/facades/facade_lookup.h"
 #include "capture/facades/item_buffer.h"
 #include "capture/facades/layer_colours.h"
@@ -93,11 +94,9 @@ View aside(const PlaceLayers& place, std::size_t photo) {
         t != no_triangle_seen && !place.model.objects[place.model.triangles[t].object].is_backdrop)
       depths.push_back(float(seen.depths[i]));
   if (depths.empty()) return view;
-  const auto middle = depths.begin() + std::ptrdiff_t(depths.size() / 2);
-  std::ranges::nth_element(depths, middle);
   const glm::dvec3 right = glm::transpose(view.camera_from_world)[0];
   constexpr double part = 0.3;
-  view.centre += part * double(*middle) * right;
+  view.centre += part * double(median(std::move(depths))) * right;
   return view;
 }
 

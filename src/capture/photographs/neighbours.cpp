@@ -4,18 +4,13 @@
 #include <map>
 #include <set>
 
+#include "base/median.h"
+
 namespace parvis::photographs {
 namespace {
 
 constexpr double times_the_median = 3.0, always_fine_px = 1.5;
 constexpr double share_of_the_median_points = 0.03;
-
-template <class T>
-T median(std::vector<T> values) {
-  if (values.empty()) return T{};
-  std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(values.size() / 2));
-  return values[values.size() / 2];
-}
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/median.h"
 #include "base/parallel.h"
 
 namespace parvis::photographs {
@@ -100,9 +101,7 @@ double viewing_distance(const PhotographSet& set) {
                                         point.position_in_world));
     if (point.observations.empty()) distances.push_back(nearest);
   }
-  if (distances.empty()) return 0.0;
-  std::ranges::nth_element(distances, distances.begin() + std::ptrdiff_t(distances.size() / 2));
-  return distances[distances.size() / 2];
+  return median(std::move(distances));
 }
 
 }  // namespace parvis::photographs

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/colour.h"
+#include "base/median.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "capture/trees/matting_laplacian.h"
@@ -144,10 +145,7 @@ Result<Zones> zones_of_plain_background(const Image8& photograph, const std::str
     for (int c = 0; c < 3; ++c) channels[std::size_t(c)].push_back(lab[c]);
   }
   glm::vec3 middle;
-  for (std::size_t c = 0; c < 3; ++c) {
-    std::ranges::nth_element(channels[c], channels[c].begin() + std::ptrdiff_t(channels[c].size() / 2));
-    middle[int(c)] = channels[c][channels[c].size() / 2];
-  }
+  for (std::size_t c = 0; c < 3; ++c) middle[int(c)] = median(std::move(channels[c]));
   std::size_t alike = 0;
   for (const std::size_t i : edge)
     alike += glm::distance(lab_of(srgb_at(photograph, i)), middle) < 2.0f * same_colour;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/bounds.h"
+#include "base/median.h"
 #include "land/roads/one_way_streets.h"
 #include "land/roads/road_network.h"
 #include "land/roads/skeleton.h"
@@ -142,12 +143,6 @@ void simplify(const Path& path, std::size_t first, std::size_t last, Path& resul
   if (furthest == first) return result.push_back(path[last]);
   simplify(path, first, furthest, result);
   simplify(path, furthest, last, result);
-}
-
-float median(std::vector<float> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 /// The middle line of a branch. Within a junction's circle the skeleton bends toward corners: there it goes

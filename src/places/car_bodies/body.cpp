@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/median.h"
+
 namespace parvis::car_bodies {
 namespace {
 
@@ -24,9 +26,7 @@ float middle_of(const Body& body) {
   middles.reserve(slices);
   for (const auto& [low, high] : sides)
     if (low <= high) middles.push_back(0.5f * (low + high));
-  const auto median = middles.begin() + std::ptrdiff_t(middles.size() / 2);
-  std::ranges::nth_element(middles, median);
-  return *median;
+  return median(std::move(middles));
 }
 
 }  // namespace

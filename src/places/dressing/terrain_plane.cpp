@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/median.h"
 #include "base/mesh.h"
 #include "places/dressing/ground_cover.h"
 
@@ -284,8 +285,7 @@ scene::Model land_around(const scene::PlaceHeights& place, const TerrainLook& lo
   std::vector<float> edge_heights;
   edge_heights.reserve(edge.size());
   for (const glm::vec3& p : edge) edge_heights.push_back(p.z);
-  std::ranges::nth_element(edge_heights, edge_heights.begin() + std::ptrdiff_t(edge.size() / 2));
-  const float level_m = edge_heights[edge.size() / 2];
+  const float level_m = median(std::move(edge_heights));
 
   Mesh mesh;
   const float sheet_m = far_sheets * cover_sheet_m(look.beyond);

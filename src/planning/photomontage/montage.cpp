@@ -6,6 +6,7 @@
 
 #include "base/colour.h"
 #include "base/known_names.h"
+#include "base/median.h"
 #include "base/parallel.h"
 #include "graphics/reference/camera_ray.h"
 #include "planning/design/design_nodes.h"
@@ -88,8 +89,7 @@ Result<double> brightness_of(const MontageJob& job, const ImageF& photograph, co
     return error(
         "the photograph shows nothing of the scene, so that its brightness is not known; give --brightness, "
         "or a scene with the ground and walls that stand in the photograph");
-  std::ranges::nth_element(logarithms, logarithms.begin() + std::ptrdiff_t(logarithms.size() / 2));
-  return std::exp(logarithms[logarithms.size() / 2]);
+  return std::exp(median(std::move(logarithms)));
 }
 
 /// Colour of the photograph's light, of luminance 1: the mean about the grey pixel.

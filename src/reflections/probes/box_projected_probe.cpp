@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/median.h"
 #include "reflections/methods/bindings.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
@@ -28,13 +29,6 @@ void walk(const scene::Lane& lane, const Place& place) {
     }
     until_next -= length;
   }
-}
-
-float median(std::vector<float>& values, float otherwise) {
-  if (values.empty()) return otherwise;
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -74,7 +68,8 @@ void BoxProjectedProbe::bake(Probe& probe, render::Renderer& renderer) {
   faces_drawn_ += 6;
 
   std::array<float, 4> reach{};
-  for (std::size_t side = 0; side < 4; ++side) reach[side] = median(distances[side], open_half_size_m);
+  for (std::size_t side = 0; side < 4; ++side)
+    reach[side] = distances[side].empty() ? open_half_size_m : median(distances[side]);
   const glm::vec2 shift{0.5f * (reach[0] - reach[2]), 0.5f * (reach[1] - reach[3])};
   probe.box_half_size = {0.5f * (reach[0] + reach[2]), 0.5f * (reach[1] + reach[3]), open_half_size_m};
   const glm::vec2 left{-probe.heading.y, probe.heading.x};
