@@ -20,6 +20,7 @@
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/tree_atlas.h"
 #include "capture/trees/tree_layer.h"
+#include "graphics/gl/sampled_textures.h"
 #include "graphics/render/bindings.h"
 #include "graphics/render/static_things.h"
 #include "graphics/render/stream_buffer.h"
@@ -202,12 +203,9 @@ class TreeDrawable final : public render::Drawable {
   void draw_range(const ViewPrograms& programs, const View& view, Range range) const {
     const gl::Program* program = range.count > 0 ? programs.use(view) : nullptr;
     if (!program) return;
-    glBindTextureUnit(atlas_unit, atlas_.texture());
-    program->set("tree_texels", int(atlas_unit));
-    if (program->declares("detail_tiles")) {
-      glBindTextureUnit(detail_unit, detail_tiles_.texture());
-      program->set("detail_tiles", int(detail_unit));
-    }
+    gl::bind_textures(*program, {{"tree_texels", atlas_unit, atlas_.texture()}});
+    if (program->declares("detail_tiles"))
+      gl::bind_textures(*program, {{"detail_tiles", detail_unit, detail_tiles_.texture()}});
     const bool is_main = view.kind == ViewKind::main;
     glVertexArrayVertexBuffer(
         vertex_array_.name(), 0, (is_main ? main_stream_ : other_stream_).name(),

@@ -1,5 +1,6 @@
 #include "capture/trees/tree_layer.h"
 
+#include "graphics/gl/sampled_textures.h"
 #include "graphics/render/bindings.h"
 
 namespace parvis::trees {
@@ -37,8 +38,7 @@ void TreeLayer::prepare(CrownCover& cover) {
 
 void TreeLayer::draw_whole(const gl::Program& program, GLuint shown) const {
   program.use();
-  program.set("shown", int(render::first_drawable_unit));
-  glBindTextureUnit(render::first_drawable_unit, shown);
+  gl::bind_textures(program, {{"shown", render::first_drawable_unit, shown}});
   glBindVertexArray(no_attributes_.name());
   glDisable(GL_CULL_FACE);
   glDrawArrays(GL_TRIANGLES, 0, 3);

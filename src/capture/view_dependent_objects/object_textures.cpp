@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "graphics/gl/sampled_textures.h"
 #include "graphics/render/bindings.h"
 #include "graphics/render/gpu_scene.h"
 #include "scene/data/mip_levels.h"
@@ -76,10 +77,8 @@ Result<ObjectTextures> ObjectTextures::create(const BlendedModel& model) {
 }
 
 void ObjectTextures::bind(const gl::Program& program) const {
-  glBindTextureUnit(render::first_drawable_unit, table_.name());
-  program.set("view_table", int(render::first_drawable_unit));
-  glBindTextureUnit(render::first_drawable_unit + 1, pictures_.name());
-  program.set("view_pictures", int(render::first_drawable_unit) + 1);
+  gl::bind_textures(program, {{"view_table", render::first_drawable_unit, table_.name()},
+                              {"view_pictures", render::first_drawable_unit + 1, pictures_.name()}});
   glBindVertexArray(vertices_.name());
 }
 

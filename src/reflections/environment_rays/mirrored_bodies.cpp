@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "graphics/gl/sampled_textures.h"
 #include "reflections/methods/bindings.h"
 
 namespace parvis::environment_rays {
@@ -143,8 +144,7 @@ void MirroredBodies::prepare(const gl::Program& program, GLuint unit) const {
   if (const GLuint index = glGetUniformBlockIndex(program.name(), "MirroredBodies");
       index != GL_INVALID_INDEX)
     glUniformBlockBinding(program.name(), index, methods::method_block);
-  glBindTextureUnit(unit, fields_.name());
-  program.set("body_fields", int(unit));
+  gl::bind_textures(program, {{"body_fields", unit, fields_.name()}});
 }
 
 }  // namespace parvis::environment_rays

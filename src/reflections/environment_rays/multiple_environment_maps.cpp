@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "graphics/gl/sampled_textures.h"
 #include "reflections/methods/bindings.h"
 #include "reflections/methods/settings.h"
 #include "reflections/reference_maps/scene_maps.h"
@@ -267,18 +268,12 @@ void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scen
 
 void MultipleEnvironmentMaps::prepare(const gl::Program& program) const {
   bodies_.prepare(program, fields_unit);
-  glBindTextureUnit(heights_unit, heights_.name());
-  glBindTextureUnit(colours_unit, maps_.colours());
-  glBindTextureUnit(glosses_unit, maps_.glosses());
-  glBindTextureUnit(distances_unit, maps_.distances());
-  glBindTextureUnit(choice_unit, table_.texture());
-  glBindTextureUnit(places_unit, maps_.place_texture());
-  program.set("heights", int(heights_unit));
-  program.set("map_colours", int(colours_unit));
-  program.set("map_glosses", int(glosses_unit));
-  program.set("map_distances", int(distances_unit));
-  program.set("map_choice", int(choice_unit));
-  program.set("map_places", int(places_unit));
+  gl::bind_textures(program, {{"heights", heights_unit, heights_.name()},
+                              {"map_colours", colours_unit, maps_.colours()},
+                              {"map_glosses", glosses_unit, maps_.glosses()},
+                              {"map_distances", distances_unit, maps_.distances()},
+                              {"map_choice", choice_unit, table_.texture()},
+                              {"map_places", places_unit, maps_.place_texture()}});
   program.set("height_grid", glm::vec4(origin_, cell_m_, float(top_level_)));
   program.set("height_cells", glm::vec2(cells_));
   program.set("choice_grid", table_.grid());

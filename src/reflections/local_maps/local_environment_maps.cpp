@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "graphics/gl/sampled_textures.h"
 #include "graphics/render/frustum.h"
 #include "reflections/local_maps/local_map_faces.h"
 #include "reflections/local_maps/local_map_settings.h"
@@ -162,10 +163,8 @@ void LocalEnvironmentMaps::update_maps(render::Renderer& renderer, const scene::
 
 void LocalEnvironmentMaps::bind(const gl::Program& program, int object) {
   const Used& used = used_[std::size_t(object)];
-  glBindTextureUnit(local_unit, picture_.texture());
-  glBindTextureUnit(colours_unit, maps_.colours());
-  program.set("local_maps", int(local_unit));
-  program.set("map_colours", int(colours_unit));
+  gl::bind_textures(program, {{"local_maps", local_unit, picture_.texture()},
+                              {"map_colours", colours_unit, maps_.colours()}});
   program.set("layer_size", glm::vec2(float(maps_.resolution()), float(ReferenceMaps::border)));
   program.set("map_pair", glm::vec2(float(used.pair.first), float(used.pair.second)));
   program.set("picture_size", glm::vec2(picture_.size()));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "graphics/gl/sampled_textures.h"
 #include "reflections/local_maps/local_map_settings.h"
 #include "reflections/methods/bindings.h"
 #include "reflections/methods/cube_map.h"
@@ -121,14 +122,11 @@ void LocalMapPicture::draw(std::span<const FaceMesh> meshes, const ReferenceMaps
   glDepthFunc(GL_ALWAYS);
   glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);
-  glBindTextureUnit(picture_colours_unit, maps.colours());
-  glBindTextureUnit(distances_unit, maps.distances());
-  glBindTextureUnit(places_unit, maps.place_texture());
   const auto draw_with = [&](const gl::Program& program) {
     program.use();
-    program.set("map_colours", int(picture_colours_unit));
-    program.set("map_distances", int(distances_unit));
-    program.set("map_places", int(places_unit));
+    gl::bind_textures(program, {{"map_colours", picture_colours_unit, maps.colours()},
+                                {"map_distances", distances_unit, maps.distances()},
+                                {"map_places", places_unit, maps.place_texture()}});
     program.set("layer_size", glm::vec2(float(maps.resolution()), float(ReferenceMaps::border)));
     program.set("picture_size", glm::vec2(size_));
     program.set("near_far", glm::vec2(methods::cube_near_m, methods::cube_far_m));
@@ -177,8 +175,7 @@ void LocalMapPicture::update_levels(std::span<const LocalMapPlace> places) {
   glDisable(GL_BLEND);
   programs_.level.use();
   programs_.level.set("picture_size", glm::vec2(size_));
-  programs_.level.set("finer", int(finer_unit));
-  glBindTextureUnit(finer_unit, colours_.name());
+  gl::bind_textures(programs_.level, {{"finer", finer_unit, colours_.name()}});
   for (int level = 1; level < local_map_levels; ++level) {
     // What is read and what is drawn are never one level.
     glTextureParameteri(colours_.name(), GL_TEXTURE_BASE_LEVEL, level - 1);

@@ -1,5 +1,6 @@
 #include "reflections/methods/mirror_picture.h"
 
+#include "graphics/gl/sampled_textures.h"
 #include "reflections/methods/bindings.h"
 
 namespace parvis::methods {
@@ -171,10 +172,9 @@ void MirrorPicture::clear_second_depth(const gl::Program& program) const {
 }
 
 void MirrorPicture::bind_rays(const gl::Program& program) const {
-  glBindTextureUnit(starts_unit, starts_.name());
-  glBindTextureUnit(directions_unit, directions_.name());
-  if (program.declares("ray_starts")) program.set("ray_starts", int(starts_unit));
-  program.set("ray_directions", int(directions_unit));
+  if (program.declares("ray_starts"))
+    gl::bind_textures(program, {{"ray_starts", starts_unit, starts_.name()}});
+  gl::bind_textures(program, {{"ray_directions", directions_unit, directions_.name()}});
 }
 
 void MirrorPicture::begin_light(int layer) const {
@@ -273,16 +273,12 @@ void MirrorPicture::put_light(const render::Renderer& renderer,
 }
 
 void MirrorPicture::bind(const gl::Program& program, GLuint first_unit) const {
-  glBindTextureUnit(first_unit, base_light_.name());
-  glBindTextureUnit(first_unit + 1, coat_light_.name());
-  glBindTextureUnit(first_unit + 2, starts_.name());
-  glBindTextureUnit(first_unit + 3, directions_.name());
   if (program.declares("has_second_rays")) program.set("has_second_rays", int(has_second_rays_));
-  program.set("base_light", int(first_unit));
-  program.set("coat_light", int(first_unit + 1));
-  if (!program.declares("ray_starts")) return;
-  program.set("ray_starts", int(first_unit + 2));
-  program.set("ray_directions", int(first_unit + 3));
+  gl::bind_textures(program, {{"base_light", first_unit, base_light_.name()},
+                              {"coat_light", first_unit + 1, coat_light_.name()}});
+  if (program.declares("ray_starts"))
+    gl::bind_textures(program, {{"ray_starts", first_unit + 2, starts_.name()},
+                                {"ray_directions", first_unit + 3, directions_.name()}});
 }
 
 }  // namespace parvis::methods

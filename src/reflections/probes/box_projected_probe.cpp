@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "base/median.h"
+#include "graphics/gl/sampled_textures.h"
 #include "reflections/methods/bindings.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
@@ -130,8 +131,7 @@ void BoxProjectedProbe::bind(const gl::Program& program, int object) {
   const Probe &nearest = *pair.nearest, &second = *pair.second;
   if (!nearest.map || !second.map) return;  // forgotten, and no frame has drawn them since
   bind_map(program, *nearest.map);
-  glBindTextureUnit(methods::first_method_unit + 1, second.map->texture());
-  program.set("second_map", int(methods::first_method_unit) + 1);
+  gl::bind_textures(program, {{"second_map", methods::first_method_unit + 1, second.map->texture()}});
   program.set("second_share", pair.second_share);
   set_box(program, 0, nearest);
   set_box(program, 1, second);

@@ -1,5 +1,6 @@
 #include "reflections/probes/cube_map_reflections.h"
 
+#include "graphics/gl/sampled_textures.h"
 #include "reflections/methods/bindings.h"
 
 namespace parvis::probes {
@@ -20,8 +21,7 @@ void CubeMapReflections::update_levels(methods::CubeMap& map) const {
 }
 
 void CubeMapReflections::bind_map(const gl::Program& program, const methods::CubeMap& map) {
-  glBindTextureUnit(methods::first_method_unit, map.texture());
-  program.set("reflection_map", int(methods::first_method_unit));
+  gl::bind_textures(program, {{"reflection_map", methods::first_method_unit, map.texture()}});
   program.set("reflection_levels", std::log2(float(map.resolution())));
 }
 

@@ -1,5 +1,6 @@
 #include "reflections/reference_maps/simple_blend.h"
 
+#include "graphics/gl/sampled_textures.h"
 #include "reflections/methods/bindings.h"
 #include "reflections/reference_maps/scene_maps.h"
 
@@ -14,8 +15,7 @@ void SimpleBlend::update_maps(render::Renderer& renderer, const scene::Scene&,
 
 void SimpleBlend::bind(const gl::Program& program, int object) {
   const MapPair& pair = pair_of_object_[std::size_t(object)];
-  glBindTextureUnit(methods::first_method_unit, maps_.colours());
-  program.set("map_colours", int(methods::first_method_unit));
+  gl::bind_textures(program, {{"map_colours", methods::first_method_unit, maps_.colours()}});
   program.set("layer_size", glm::vec2(float(maps_.resolution()), float(ReferenceMaps::border)));
   program.set("map_pair", glm::vec2(float(pair.first), float(pair.second)));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graphics/gl/sampled_textures.h"
 #include "graphics/render/frustum.h"
 #include "reflections/methods/cube_map.h"
 #include "reflections/reflector_maps/bindings.h"
@@ -204,8 +205,8 @@ void RefractedObjects::draw_light(const render::View& view, std::size_t i, int p
   glass_light_.use();
   GpuReflector::bind(glass_light_, *shown.patch, shown.world_from_reflector, reflector_unit);
   const methods::CubeMap* surroundings = surroundings_of(shown.object);
-  if (surroundings) glBindTextureUnit(methods::first_method_unit, surroundings->texture());
-  glass_light_.set("surroundings", int(methods::first_method_unit));
+  gl::bind_textures(glass_light_, {{"surroundings", methods::first_method_unit,
+                                    surroundings ? surroundings->texture() : 0}});
   glass_light_.set("surroundings_levels",
                    surroundings ? std::log2(float(surroundings->resolution())) : -1.0f);
   glass_light_.set("clip_from_reflector", view.clip_from_world * shown.world_from_reflector);
@@ -271,8 +272,7 @@ render::SurfaceSource RefractedObjects::source() const {
 }
 
 void RefractedObjects::bind(const gl::Program& program, int object) {
-  glBindTextureUnit(glass_picture_unit, picture_.texture());
-  program.set("glass_picture", int(glass_picture_unit));
+  gl::bind_textures(program, {{"glass_picture", glass_picture_unit, picture_.texture()}});
   program.set("glass_share", is_shown(shown_, object) || is_shown(panes_, object) ? 1.0f : 0.0f);
   Overlay::bind(program, object);
 }

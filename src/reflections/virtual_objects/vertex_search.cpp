@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "graphics/gl/sampled_textures.h"
 #include "reflections/reflector_maps/bindings.h"
 #include "reflections/virtual_objects/search_settings.h"
 #include "reflections/virtual_objects/virtual_grid.h"
@@ -195,11 +196,10 @@ void VertexSearch::search(const std::function<void(const gl::Program&)>& bind_pa
 }
 
 void VertexSearch::bind(const gl::Program& program) const {
-  glBindTextureUnit(grid_table_unit, table_.name());
-  glBindTextureUnit(grid_results_unit, results_.name());
-  if (program.declares("grid_table")) program.set("grid_table", int(grid_table_unit));
+  if (program.declares("grid_table"))
+    gl::bind_textures(program, {{"grid_table", grid_table_unit, table_.name()}});
   if (!program.declares("grid_results")) return;
-  program.set("grid_results", int(grid_results_unit));
+  gl::bind_textures(program, {{"grid_results", grid_results_unit, results_.name()}});
   program.set("max_stray_px", max_stray_px_);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graphics/gl/sampled_textures.h"
 #include "graphics/render/frustum.h"
 #include "reflections/reflector_maps/bindings.h"
 #include "reflections/reflector_maps/reflector_cache.h"
@@ -64,8 +65,7 @@ void add_near_picture(render::SurfaceSource& surface) {
 
 void bind_near_picture(const gl::Program& program, GLuint texture, float share) {
   if (!program.declares("near_picture")) return;  // a program of surfaces that mirror nothing
-  glBindTextureUnit(near_picture_unit, texture);
-  program.set("near_picture", int(near_picture_unit));
+  gl::bind_textures(program, {{"near_picture", near_picture_unit, texture}});
   program.set("near_share", share);
 }
 
