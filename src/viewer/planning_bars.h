@@ -2,8 +2,10 @@
 // what the next click does below; and the inspector, a page of the panel.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
+#include "viewer/imgui_context.h"
 #include "viewer/kind_pictures.h"
 #include "viewer/overlay.h"
 #include "viewer/panel_rows.h"
