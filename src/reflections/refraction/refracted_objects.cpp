@@ -205,8 +205,8 @@ void RefractedObjects::draw_light(const render::View& view, std::size_t i, int p
   glass_light_.use();
   GpuReflector::bind(glass_light_, *shown.patch, shown.world_from_reflector, reflector_unit);
   const methods::CubeMap* surroundings = surroundings_of(shown.object);
-  gl::bind_textures(glass_light_, {{"surroundings", methods::first_method_unit,
-                                    surroundings ? surroundings->texture() : 0}});
+  if (surroundings) glBindTextureUnit(methods::first_method_unit, surroundings->texture());
+  glass_light_.set("surroundings", int(methods::first_method_unit));
   glass_light_.set("surroundings_levels",
                    surroundings ? std::log2(float(surroundings->resolution())) : -1.0f);
   glass_light_.set("clip_from_reflector", view.clip_from_world * shown.world_from_reflector);
