@@ -20,6 +20,7 @@ class House;
   ROOM(roads)                                                                              \
   ROOM(traffic)                                                                            \
   ROOM(tram)                                                                               \
+  ROOM(noise)                                                                              \
   ROOM(people)                                                                             \
   ROOM(crowd)                                                                              \
   ROOM(light)                                                                              \

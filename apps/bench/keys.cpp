@@ -177,6 +177,9 @@ constexpr Key keys[]{
     {"cnossos_largest_difference_db", "dB", {}, "the same, any octave of any case"},
     {"air_absorption_matches", "figures", minimum(48.0), "of 48 of ISO 9613-2's table 2, within one printed digit"},
     {"road_emission_checks", "checks", minimum(5.0), "of 5 of the Commission's library, 2015 coefficients, within 0.01 dB"},
+    {"noise_map_points_per_s", "points/s", {}, "The Hague, a part in cells of 10 m (quick 20 m), 3 reflections, 800 m"},
+    {"noise_map_points_per_s_without_reflections", "points/s", {}, "the same without reflections"},
+    {"noise_resummed_ms", "ms", maximum(100.0), "10,000 receivers of the map summed for another traffic", {{"noise_resummed_ms_with_rays"}}},
     // vegetation
     {"vegetation_fps_200_trees_1m_triangles", "fps", minimum(10.0), "the slowest view, 640x360, a sun that moves", {{"vegetation_fps_real_geometry_control"}}},
     {"vegetation_fps_while_shadow_maps_are_kept", "fps", {}, "the same view under a sun that stays"},

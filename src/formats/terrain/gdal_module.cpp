@@ -2,6 +2,7 @@
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
+#include <cpl_vsi.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
 #include <tiffio.h>
@@ -255,7 +256,45 @@ Result<HeightGrid> read(const std::filesystem::path& file, std::optional<double>
   return grid;
 }
 
+Result<std::string> write(const MapRaster& raster) {
+  const QuietGdal quiet;
+  GDALAllRegister();
+  constexpr const char* file = "/vsimem/parvis_raster.tif";  // in memory
+  const char* const compressed[]{"COMPRESS=DEFLATE", nullptr};
+  Dataset made(GDALCreate(GDALGetDriverByName("GTiff"), file, raster.columns, raster.rows,
+                          int(raster.bands.size()), GDT_Float32, const_cast<char**>(compressed)),
+               [](GDALDatasetH created) {
+                 if (created) GDALClose(created);
+               });
+  if (!made) return error("no GeoTIFF can be made ({})", CPLGetLastErrorMsg());
+  double transform[]{raster.corner.x, raster.cell_m, 0.0, raster.corner.y, 0.0, -raster.cell_m};
+  bool is_written = GDALSetGeoTransform(made.get(), transform) == CE_None;
+  if (!raster.map.empty()) {
+    const std::unique_ptr<void, void (*)(OGRSpatialReferenceH)> system(OSRNewSpatialReference(nullptr),
+                                                                       OSRDestroySpatialReference);
+    if (OSRSetFromUserInput(system.get(), raster.map.c_str()) != OGRERR_NONE)
+      return error("the map's coordinate system \"{}\" is not known: the GeoTIFF is not written", raster.map);
+    is_written = is_written && GDALSetSpatialRef(made.get(), system.get()) == CE_None;
+  }
+  for (std::size_t i = 0; i < raster.bands.size(); ++i) {
+    const GDALRasterBandH band = GDALGetRasterBand(made.get(), int(i) + 1);
+    GDALSetDescription(band, raster.bands[i].name.c_str());
+    GDALSetRasterNoDataValue(band, double(MapRaster::nothing));
+    is_written = is_written && GDALRasterIO(band, GF_Write, 0, 0, raster.columns, raster.rows,
+                                            const_cast<float*>(raster.bands[i].values.data()), raster.columns,
+                                            raster.rows, GDT_Float32, 0, 0) == CE_None;
+  }
+  made.reset();  // all is written when the file is closed
+  vsi_l_offset size = 0;
+  const GByte* const bytes = VSIGetMemFileBuffer(file, &size, FALSE);
+  std::string content = bytes ? std::string(reinterpret_cast<const char*>(bytes), size) : std::string();
+  VSIUnlink(file);
+  if (!is_written || content.empty())
+    return error("the GeoTIFF cannot be written ({})", CPLGetLastErrorMsg());
+  return content;
+}
+
 }  // namespace
 }  // namespace parvis::scene
 
-PARVIS_MODULE(parvis::scene::GdalFunctions){parvis::scene::read};
+PARVIS_MODULE(parvis::scene::GdalFunctions){parvis::scene::read, parvis::scene::write};

@@ -317,6 +317,12 @@ std::optional<Octaves> reflection_loss(const Profile& profile, std::span<const R
   return result;
 }
 
+Octaves edge_loss_db(double difference_m) {
+  Octaves result;
+  for (std::size_t i = 0; i < octaves; ++i) result[i] = edge_loss(difference_m, 0.0, wavelength(i));
+  return result;
+}
+
 double rise_of_ray(double distance_m, double length_m, Condition condition) {
   return Lengths{condition, ray_radius(length_m)}.rise(distance_m, length_m);
 }

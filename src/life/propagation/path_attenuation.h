@@ -71,6 +71,9 @@ Octaves attenuation_around(const Profile& profile, const Detour& detour, const O
 std::optional<Octaves> reflection_loss(const Profile& profile, std::span<const Reflector> reflectors,
                                        Condition condition);
 
+/// Loss in dB by octave past one edge for a path difference in metres, negative in clear sight (2.5.21).
+Octaves edge_loss_db(double difference_m);
+
 /// How much the path rises above the straight line of a length in plan, at a distance from its begin, metres:
 /// 0, or as an arc with a radius of 8 lengths and 1 km at least.
 double rise_of_ray(double distance_m, double length_m, Condition condition);

@@ -140,6 +140,26 @@ TEST(Site, FindsTheWayRoundABoxOnBothSides) {
       << "too long";
 }
 
+TEST(Site, LevelsDoNotJumpAtTheShadowOfACorner) {
+  const BoxOnPlain terrain;
+  std::vector<Wall> walls = BoxOnPlain::walls();
+  for (Wall& wall : walls) wall.top_a = wall.top_b = 60.0;  // nothing comes over it
+  const Site site(terrain, walls);
+  const PathChoice choice{.reflections = 0};
+  double largest_db = 0.0, largest_without_db = 0.0, before = 0.0, before_without = 0.0;
+  for (double y = -10.0; y < 40.0; y += 0.02) {  // behind the box, from its shadow into the light
+    const Place source(-20, 0, 1), receiver(20, y, 1.7);
+    const Octaves heard = site.transfer(source, receiver, {}, choice, air_10_70).homogeneous_db,
+                  lost = site.grazing_loss(source, receiver);
+    const double now = heard[3] - lost[3], without = heard[3];
+    if (y > -10.0) largest_db = std::max(largest_db, std::abs(now - before));
+    if (y > -10.0) largest_without_db = std::max(largest_without_db, std::abs(without - before_without));
+    before = now, before_without = without;
+  }
+  EXPECT_LT(largest_db, 0.5);
+  EXPECT_GT(largest_without_db, 3.0) << "without it the level jumps";
+}
+
 TEST(Site, PathsAreReciprocalOverHardGround) {
   const BoxOnPlain terrain;
   const Site site(terrain, BoxOnPlain::walls());

@@ -162,6 +162,10 @@ Site::Site(const Terrain& terrain, std::vector<Wall> walls)
       walls_(std::move(walls)),
       neighbours_(walls_.size()),
       rays_(std::make_unique<Rays>(walls_)) {
+  for (const Wall& wall : walls_) {
+    ends_.emplace_back(wall.a, wall.top_a);
+    ends_.emplace_back(wall.b, wall.top_b);
+  }
   std::map<std::pair<long, long>, std::vector<std::pair<int, int>>> ends;  // by centimetre: wall, end
   const auto key = [](dvec2 p) { return std::pair{std::lround(100.0 * p.x), std::lround(100.0 * p.y)}; };
   for (std::size_t i = 0; i < walls_.size(); ++i)
@@ -410,6 +414,27 @@ std::optional<Octaves> Site::reflected(const Place& source, const Place& receive
   Octaves result = attenuation_over(unfolded, air_db_per_m, condition);
   for (std::size_t i = 0; i < octaves; ++i) result[i] += (*loss)[i];
   return result;
+}
+
+Octaves Site::grazing_loss(const Place& source, const Place& receiver) const {
+  const dvec2 from(source), direct = dvec2(receiver) - from;
+  const double square = glm::dot(direct, direct), direct_m = glm::distance(source, receiver);
+  if (square < 1.0) return {};
+  for (const Crossing& crossing : crossings(from, dvec2(receiver))) {
+    const Wall& wall = walls_[std::size_t(crossing.wall)];
+    const double ray = glm::mix(source.z, receiver.z, crossing.distance_m / std::sqrt(square));
+    if (top_at(wall, crossing.fraction) > ray) return {};
+  }
+  constexpr double reach_m = 0.3;  // beyond this path difference the lowest octave loses nothing
+  double nearest_m = reach_m;
+  for (const Place& end : ends_) {
+    const double t = glm::dot(dvec2(end) - from, direct) / square;
+    if (t <= 0.0 || t >= 1.0) continue;
+    const Place corner(dvec2(end), glm::mix(source.z, receiver.z, t));
+    if (end.z > corner.z)
+      nearest_m = std::min(nearest_m, glm::distance(source, corner) + glm::distance(corner, receiver) - direct_m);
+  }
+  return nearest_m < reach_m ? edge_loss_db(-nearest_m) : Octaves{};
 }
 
 Transfer Site::transfer(const Place& source, const Place& receiver, std::span<const WallSequence> sequences,

@@ -1,0 +1,101 @@
+// What `parvis noise` writes.
+#include "base/file_set.h"
+#include "base/image_io.h"
+#include "formats/terrain/map_raster.h"
+#include "planning/noise/noise_picture.h"
+
+namespace parvis::noise {
+namespace {
+
+std::filesystem::path named(const std::filesystem::path& prefix, const char* end) {
+  return prefix.string() + end;
+}
+
+std::string level_columns(const NoiseLevels& it) {
+  return fmt::format("{:.1f},{:.1f},{:.1f},{:.1f}", it.lday, it.levening, it.lnight, it.lden);
+}
+
+std::string map_table(const NoiseMap& map) {
+  std::string table = "x_m,y_m,z_m,lday_db,levening_db,lnight_db,lden_db\n";
+  for (const int receiver : map.receiver_of_cell) {
+    if (receiver < 0) continue;
+    const propagation::Place& at = map.receivers[std::size_t(receiver)].place;
+    table += fmt::format("{:.2f},{:.2f},{:.2f},{}\n", at.x, at.y, at.z,
+                         level_columns(map.levels[std::size_t(receiver)]));
+  }
+  return table;
+}
+
+std::string facade_rows(const NoiseMap& map) {
+  std::string table = "x_m,y_m,z_m,floor,facing_x,facing_y,lday_db,levening_db,lnight_db,lden_db\n";
+  bool has_any = false;
+  for (std::size_t i = 0; i < map.receivers.size(); ++i) {
+    const Receiver& it = map.receivers[i];
+    if (it.wall < 0) continue;
+    has_any = true;
+    table += fmt::format("{:.2f},{:.2f},{:.2f},{},{:.3f},{:.3f},{}\n", it.place.x, it.place.y, it.place.z,
+                         it.floor, it.facing.x, it.facing.y, level_columns(map.levels[i]));
+  }
+  return has_any ? table : std::string();
+}
+
+Result<std::string> raster_of(const NoiseMap& map, const scene::Scene& scene) {
+  scene::MapRaster raster{.columns = map.columns, .rows = map.rows, .cell_m = map.cell_m};
+  raster.corner = glm::dvec2(scene.origin) + map.corner + glm::dvec2(0.0, map.rows * map.cell_m);
+  raster.map = scene.map;
+  raster.bands = {{"Lden dB(A)", {}}, {"Lday dB(A)", {}}, {"Levening dB(A)", {}}, {"Lnight dB(A)", {}}};
+  for (int row = map.rows; row-- > 0;)
+    for (int column = 0; column < map.columns; ++column) {
+      const std::optional<NoiseLevels> here = levels_at(map, column, row);
+      const NoiseLevels& it = here ? *here : NoiseLevels{};
+      const double values[]{it.lden, it.lday, it.levening, it.lnight};
+      for (std::size_t band = 0; band < raster.bands.size(); ++band)
+        raster.bands[band].values.push_back(here ? float(values[band]) : scene::MapRaster::nothing);
+    }
+  return scene::encode_geotiff(raster);
+}
+
+}  // namespace
+
+Status write_noise(const std::filesystem::path& prefix, const NoiseMap& map, const scene::Scene& scene) {
+  const auto lden = [&](int column, int row) -> std::optional<double> {
+    const std::optional<NoiseLevels> here = levels_at(map, column, row);
+    return here ? std::optional(here->lden) : std::nullopt;
+  };
+  const Result<std::string> picture =
+      encode_image(noise_picture(map, "Lden in dB(A)", level_scale(), lden), named(prefix, ".png").string());
+  if (!picture) return picture.errors();
+  const Result<std::string> raster = raster_of(map, scene);
+  if (!raster) return raster.errors();
+  std::vector<FileContent> files{{named(prefix, ".png"), *picture},
+                                 {named(prefix, ".csv"), map_table(map)},
+                                 {named(prefix, ".tif"), *raster}};
+  if (std::string facades = facade_rows(map); !facades.empty())
+    files.push_back({named(prefix, "_facades.csv"), std::move(facades)});
+  return write_together(files);
+}
+
+Status write_difference(const std::filesystem::path& prefix, const NoiseMap& map, const NoiseMap& before) {
+  if (map.columns != before.columns || map.rows != before.rows || map.corner != before.corner)
+    return error("the two states of the scene cover different areas: give --area X Y X Y");
+  const auto difference = [&](int column, int row) -> std::optional<double> {
+    const std::optional<NoiseLevels> now = levels_at(map, column, row), then = levels_at(before, column, row);
+    return now && then ? std::optional(now->lden - then->lden) : std::nullopt;
+  };
+  std::string table = "x_m,y_m,lden_before_db,lden_db,difference_db\n";
+  for (int row = 0; row < map.rows; ++row)
+    for (int column = 0; column < map.columns; ++column)
+      if (const std::optional<double> here = difference(column, row)) {
+        const glm::dvec2 at = map.corner + map.cell_m * (glm::dvec2(column, row) + 0.5);
+        table += fmt::format("{:.2f},{:.2f},{:.1f},{:.1f},{:+.1f}\n", at.x, at.y,
+                             levels_at(before, column, row)->lden, levels_at(map, column, row)->lden, *here);
+      }
+  const Result<std::string> picture =
+      encode_image(noise_picture(map, "difference of Lden in dB", difference_scale(), difference),
+                   named(prefix, "_difference.png").string());
+  if (!picture) return picture.errors();
+  return write_together(
+      {{named(prefix, "_difference.png"), *picture}, {named(prefix, "_difference.csv"), table}});
+}
+
+}  // namespace parvis::noise
