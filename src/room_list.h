@@ -21,6 +21,7 @@ class House;
   ROOM(traffic)                                                                            \
   ROOM(tram)                                                                               \
   ROOM(noise)                                                                              \
+  ROOM(sound)                                                                              \
   ROOM(people)                                                                             \
   ROOM(crowd)                                                                              \
   ROOM(light)                                                                              \

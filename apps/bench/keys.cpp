@@ -180,6 +180,12 @@ constexpr Key keys[]{
     {"noise_map_points_per_s", "points/s", {}, "The Hague, a part in cells of 10 m (quick 20 m), 3 reflections, 800 m"},
     {"noise_map_points_per_s_without_reflections", "points/s", {}, "the same without reflections"},
     {"noise_resummed_ms", "ms", maximum(100.0), "10,000 receivers of the map summed for another traffic", {{"noise_resummed_ms_with_rays"}}},
+    // sound
+    {"sources_realtime", "sources", minimum(5000.0), "moving sources of all kinds, 24 clusters for headphones, in a quarter of a core"},
+    {"level_error_db_per_band", "dB", maximum(1.5), "2,000 steady sources at a microphone, the worst octave, against the sum of all"},
+    {"direction_error_deg", "degrees", maximum(5.0), "the same, sources against their clusters, weighted by energy", {{"direction_error_deg_of_two_clusters"}}},
+    {"map_over_listening_db", "dB", maximum(1.0), "a street and a house, ten listeners, the worst octave of what is heard against the map", {{"map_over_listening_db_elsewhere"}}},
+    {"shadow_edge_step_db", "dB", maximum(0.5), "a walk behind the house, from step to step of 1/60 s"},
     // vegetation
     {"vegetation_fps_200_trees_1m_triangles", "fps", minimum(10.0), "the slowest view, 640x360, a sun that moves", {{"vegetation_fps_real_geometry_control"}}},
     {"vegetation_fps_while_shadow_maps_are_kept", "fps", {}, "the same view under a sun that stays"},

@@ -72,8 +72,8 @@ void measure_noise_map(const BenchSetup& setup, Report& report) {
   }
   report.add("noise_resummed_ms", median(summed_ms));
   report.add("noise_resummed_ms_with_rays", with_rays_ms);
-  report.note(fmt::format("{} receivers, {} pieces of road, {} pairs", map->receivers.size(), map->sources.patches.size(),
-                          map->transfers.patches.size()));
+  report.note(fmt::format("{} receivers, {} pieces of road, {} pairs", map->receivers.size(),
+                          map->sources.patches.size(), map->transfers.patches.size()));
 }
 
 }  // namespace parvis::bench

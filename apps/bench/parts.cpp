@@ -51,6 +51,7 @@ std::span<const Part> all_parts() {
       {"plan", "photomontage", "cameras of photographs from six clicks", measure_clicked_cameras, false},
       {"noise", "cases", "propagation and emission against the published cases", measure_noise_cases, false},
       {"noise", "map", "the map of The Hague, and levels after a change of traffic", measure_noise_map, false},
+      {"sound", "mix", "mixing, what is heard against the map of noise, shadows", measure_sound, false},
       {"vegetation", "grove", "points and lines of grown plants against their real geometry", measure_vegetation},
       {"facades", "sceaux", "the castle: held-out photographs, costs, times of drawing", measure_sceaux},
       {"facades", "courtyard", "the courtyard: held-out photographs", measure_courtyard},

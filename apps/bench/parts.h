@@ -21,7 +21,8 @@ Measured measure_sky, measure_sky_update, measure_relighting, measure_lit_object
     measure_night, measure_sun_hours, measure_shadows, measure_shadow_times;            // light/
 Measured measure_plan, measure_plan_files;                                              // plan.cpp
 Measured measure_clicked_cameras;                                                       // clicked_cameras.cpp
-Measured measure_noise_cases, measure_noise_map;                                                // noise.cpp
+Measured measure_noise_cases, measure_noise_map;                                        // noise.cpp
+Measured measure_sound;                                                                 // sound.cpp
 Measured measure_vegetation;                                                            // vegetation.cpp
 Measured measure_sceaux, measure_courtyard, measure_filling, measure_drawings;          // facades/
 Measured measure_reconstruction, measure_display, measure_maize, measure_distribution;  // trees/

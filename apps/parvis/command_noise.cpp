@@ -17,7 +17,7 @@ struct NoiseArguments {
   noise::NoiseOptions options;
 };
 
-/// What the figures mean, and what the map leaves out.
+/// Prints the meaning of the figures, and the gaps of the map.
 void print_noise(const NoiseArguments& arguments, const noise::NoiseMap& map) {
   const noise::RoadSources& sources = map.sources;
   if (!sources.is_counted)

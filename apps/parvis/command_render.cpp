@@ -9,6 +9,8 @@
 #include "commands.h"
 #include "graphics/render/picture_reader.h"
 #include "interruption.h"
+#include "life/sound/listening.h"
+#include "life/sound/wave_file.h"
 #include "machines/processes.h"
 #include "reflections/methods/registry.h"
 #include "scene/data/scene_key.h"
@@ -26,6 +28,7 @@ struct RenderArguments : SceneArguments {
   double seconds = 0.0;
   int frames_per_second = 24;
   int supersample = 1;
+  bool has_sound = false;
   std::vector<std::string> probes;  ///< "X,Y": pixels of the picture
 };
 
@@ -94,6 +97,42 @@ Status expect_single_frames(const house::Stage& stage) {
   return Done{};
 }
 
+/// The sound at a film's camera.
+class FilmSound {
+ public:
+  FilmSound(house::Stage& stage, int frames_per_second)
+      : stage_(stage),
+        listening_(stage.scene(), sound::Output::stereo),
+        moment_(std::size_t(sound::sample_rate / frames_per_second)) {}
+
+  /// The sound of one frame.
+  Status hear(const std::string& camera) {
+    const Result<Camera> ears = stage_.camera(camera);
+    if (!ears) return ears.errors();
+    left_.resize(left_.size() + moment_, 0.0f), right_.resize(left_.size(), 0.0f);
+    listening_.hear(stage_.scene(), *ears, stage_.play().clock.time_s(), std::span(left_).last(moment_),
+                    std::span(right_).last(moment_));
+    return Done{};
+  }
+  /// A file of all that was heard, 20 dB louder than `parvis sound` writes: 0 dBFS stands for 80 dB, or for
+  /// the loudest moment.
+  std::string wave() {
+    constexpr float gain = 10.0f;
+    float loudest = 0.1f;
+    for (const std::vector<float>* channel : {&left_, &right_})
+      for (const float sample : *channel) loudest = std::max(loudest, std::abs(sample));
+    for (std::vector<float>* channel : {&left_, &right_})
+      for (float& sample : *channel) sample *= std::min(gain, 1.0f / loudest);
+    return sound::encode_wave(left_, right_);
+  }
+
+ private:
+  house::Stage& stage_;
+  sound::Listening listening_;
+  std::size_t moment_;
+  std::vector<float> left_, right_;
+};
+
 /// A film whose frames several processes divide, or have begun to.
 Status render_divided_film(house::Stage& stage, const RenderArguments& arguments,
                            const std::filesystem::path& output, int width, int height,
@@ -128,6 +167,8 @@ Status render_film(house::Stage& stage, const RenderArguments& arguments, const 
   if (!film) return film.errors();
   const Result<int> frames = frames_of(arguments, output);
   if (!frames) return frames.errors();
+  std::optional<FilmSound> sound;
+  if (arguments.has_sound) sound.emplace(stage, arguments.frames_per_second);
   render::PictureReader reader;
   Progress progress("rendering film", std::size_t(*frames));
   for (int frame = 0; frame < *frames; ++frame) {
@@ -136,12 +177,14 @@ Status render_film(house::Stage& stage, const RenderArguments& arguments, const 
     if (const auto picture = reader.next(stage.renderer(), stage.scene().exposure)) {
       if (Status status = film->add(reduced(*picture, arguments.supersample)); !status) return status;
     }
+    if (sound)
+      if (Status status = sound->hear(arguments.camera); !status) return status;
     stage.play().advance(1.0 / arguments.frames_per_second);
     progress.advance();
   }
   while (const auto picture = reader.rest())
     if (Status status = film->add(reduced(*picture, arguments.supersample)); !status) return status;
-  return film->finish();
+  return film->finish(sound ? sound->wave() : std::string());
 }
 
 /// Pixels of --probe.
@@ -232,6 +275,7 @@ void add_render(CLI::App& app, Chosen& chosen) {
   command->add_option("--fps", arguments->frames_per_second, "Frames per second of a film")
       ->check(CLI::Range(1, 240))
       ->capture_default_str();
+  command->add_flag("--sound", arguments->has_sound, "A film with what its camera hears; not with mpirun");
   command
       ->add_option("--supersample", arguments->supersample,
                    "Draw n x n as many pixels and average their light")

@@ -22,7 +22,7 @@ import unittest
 import zlib
 
 PARVIS = None  # path of the program, from the command line
-SUBCOMMANDS = ["view", "render", "bake", "reference", "compare", "check", "format", "export", "city", "plan", "photomontage", "sun", "facade", "tree", "car", "noise"]
+SUBCOMMANDS = ["view", "render", "bake", "reference", "compare", "check", "format", "export", "city", "plan", "photomontage", "sun", "facade", "tree", "car", "noise", "sound"]
 SIZE = ["--size", "64x48"]
 
 

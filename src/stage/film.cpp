@@ -98,13 +98,26 @@ Status Film::add(const Image8& frame) {
   return Done{};
 }
 
-Status Film::finish() {
+Status Film::finish(const std::string& wave) {
   const int status = pclose(std::exchange(pipe_, nullptr));
   PartialFile partial = std::move(partial_);  // removed at the end, unless it is kept
   if (frames_ == 0) return error("{}: a film of no frames; give it more --seconds", file_.string());
   if (status != 0 || !has_end(partial.path()))
     return error("{}: the film cannot be written whole; is the disk full?", file_.string());
-  return partial.keep();
+  if (wave.empty()) return partial.keep();
+  Result<PartialFile> with_sound = PartialFile::create(file_);
+  if (!with_sound) return with_sound.errors();
+  const std::string command = fmt::format(
+      "ffmpeg -y -loglevel error -f mp4 -i file:/dev/fd/4 -f wav -i - -map 0:v -map 1:a -c:v copy -c:a aac "
+      "-b:a 192k "
+      "-movflags +faststart -f mp4 file:/dev/fd/3 3< {} 4< {}",
+      quoted(with_sound->path().string()), quoted(partial.path().string()));
+  std::FILE* pipe = popen(command.c_str(), "w");
+  if (!pipe) return error("{}: ffmpeg cannot be started", file_.string());
+  const bool is_given = std::fwrite(wave.data(), 1, wave.size(), pipe) == wave.size();
+  if (pclose(pipe) != 0 || !is_given || !has_end(with_sound->path()))
+    return error("{}: the film's sound cannot be written; is the disk full?", file_.string());
+  return with_sound->keep();
 }
 
 }  // namespace parvis::house

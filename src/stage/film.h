@@ -23,8 +23,9 @@ class Film {
 
   /// Appends an 8-bit sRGB picture of the film's size with 3 or 4 channels.
   Status add(const Image8& frame);
-  /// Ends the film. Errors: it has no frame; ffmpeg failed, or left a file without an end (a full disk).
-  Status finish();
+  /// Ends the film, with the sound of a WAVE file's bytes where they are given. Errors: it has no frame;
+  /// ffmpeg failed, or left a file without an end (a full disk).
+  Status finish(const std::string& wave = {});
 
  private:
   Film(std::filesystem::path file, PartialFile partial, std::FILE* pipe, int width, int height);

@@ -13,7 +13,7 @@ namespace parvis::propagation {
 /// Ground and roofs of a scene's static objects, seen from above by rays.
 class SceneTerrain final : public Terrain {
  public:
-  /// Without leaves, dynamic objects and land beyond the place.
+  /// The scene counts without leaves, dynamic objects and land beyond the place.
   explicit SceneTerrain(const scene::Scene& scene);
 
   double ground_z(glm::dvec2 place) const override { return double(heights_.at(glm::vec2(place))); }

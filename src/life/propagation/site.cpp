@@ -432,7 +432,8 @@ Octaves Site::grazing_loss(const Place& source, const Place& receiver) const {
     if (t <= 0.0 || t >= 1.0) continue;
     const Place corner(dvec2(end), glm::mix(source.z, receiver.z, t));
     if (end.z > corner.z)
-      nearest_m = std::min(nearest_m, glm::distance(source, corner) + glm::distance(corner, receiver) - direct_m);
+      nearest_m =
+          std::min(nearest_m, glm::distance(source, corner) + glm::distance(corner, receiver) - direct_m);
   }
   return nearest_m < reach_m ? edge_loss_db(-nearest_m) : Octaves{};
 }

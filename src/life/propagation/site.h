@@ -99,9 +99,9 @@ class Site {
   std::optional<Octaves> reflected(const Place& source, const Place& receiver, std::span<const int> walls,
                                    const Octaves& air_db_per_m, Condition condition) const;
 
-  /// What clear sight past upright edges loses, dB by octave, so that levels do not jump where a listener steps into the
-  /// shadow of a corner: lateral diffraction with a negative path difference, which CNOSSOS-EU leaves out. 0 in the
-  /// shadow.
+  /// The loss of clear sight past upright edges, dB by octave, so that levels do not jump where a listener
+  /// steps into the shadow of a corner: lateral diffraction with a negative path difference, which CNOSSOS-EU
+  /// leaves out. 0 in the shadow.
   Octaves grazing_loss(const Place& source, const Place& receiver) const;
 
   /// All paths together; `sequences`: those seen from the receiver.
@@ -117,7 +117,7 @@ class Site {
   const Terrain& terrain_;
   std::vector<Wall> walls_;
   std::vector<std::array<std::vector<int>, 2>> neighbours_;  // of each wall: those that share its end a, b
-  std::vector<Place> ends_;  // of walls, with their tops
+  std::vector<Place> ends_;                                  // of walls, with their tops
   std::unique_ptr<Rays> rays_;
 };
 

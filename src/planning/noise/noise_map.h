@@ -10,7 +10,7 @@
 
 namespace parvis::noise {
 
-/// What is computed.
+/// The settings of a map.
 struct NoiseOptions {
   double cell_m = 5.0;               ///< of the map
   double height_m = 4.0;             ///< of the map's receivers over the ground; the Directive asks for 4 m
