@@ -1,8 +1,7 @@
 // Sound: the mix against the sources by themselves, what is heard against the map, shadows, time.
-#include <chrono>
-
 #include "bench/parts.h"
 #include "life/sound/listening.h"
+#include "life/traffic/demand.h"
 #include "planning/noise/noise_map.h"
 
 namespace parvis::bench {

@@ -8,7 +8,7 @@
 namespace parvis::sound {
 namespace {
 
-constexpr float head_radius_m = 0.0875f, sound_speed_m_s = 340.0f;
+constexpr float head_radius_m = 0.0875f, speed_of_sound_m_s = 340.0f;
 constexpr std::size_t max_delay = 64;   // samples: more than the head's 0.66 ms
 constexpr double visible_weight = 2.0;  // of energy where clusters are chosen
 constexpr float loudspeaker_rad = std::numbers::pi_v<float> / 6.0f;
@@ -38,7 +38,7 @@ Ear ear_of(glm::vec3 direction, int ear) {
   const float angle = std::asin(std::clamp(toward, -1.0f, 1.0f));
   // Woodworth: the near ear is reached earlier along the line, the far one later along the sphere.
   const float early_m = head_radius_m * (angle > 0.0f ? std::sin(angle) : angle);
-  const float delay = 0.5f * float(max_delay) - early_m / sound_speed_m_s * float(sample_rate);
+  const float delay = 0.5f * float(max_delay) - early_m / speed_of_sound_m_s * float(sample_rate);
   return {delay, 1.05f + 0.95f * std::cos((std::acos(std::clamp(toward, -1.0f, 1.0f))) * 180.0f / 150.0f)};
 }
 
@@ -183,7 +183,7 @@ void Mixer::spatialise(Cluster& cluster, std::span<const float> signal, std::spa
   std::vector<float> line(cluster.past);
   line.insert(line.end(), signal.begin(), signal.end());
   // Shadow: (high s + corner)/(s + corner) with the corner at c/a, by the bilinear transform.
-  const float corner = 2.0f * sound_speed_m_s / head_radius_m, step = 2.0f * float(sample_rate);
+  const float corner = 2.0f * speed_of_sound_m_s / head_radius_m, step = 2.0f * float(sample_rate);
   for (int ear = 0; ear < 2; ++ear) {
     const Ear from = ear_of(cluster.direction, ear), to = ear_of(cluster.next_direction, ear);
     float last_in = cluster.shadow_in[std::size_t(ear)], last_out = cluster.shadow_out[std::size_t(ear)];
