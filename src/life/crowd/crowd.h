@@ -46,6 +46,10 @@ class Crowd {
                                  float waits_s = 0.0f);
   /// Sends a person elsewhere, who sets off in `waits_s`. False where no way leads there.
   bool send(std::size_t person, int destination, float waits_s = 0.0f);
+  /// The one of `destinations` at which a person would have passed first, by distance and by who is nearer
+  /// and goes there, too: 1.2 people per second and metre of its line pass. The present one is left where
+  /// another one saves a fourth.
+  int quickest(std::size_t person, std::span<const int> destinations) const;
   /// Removes a person; the last one takes the index.
   void remove(std::size_t person);
 

@@ -19,8 +19,9 @@ constexpr int warm_up_steps = 200;     // all start at rest
 constexpr float mean_speed = 1.34f, speed_deviation = 0.26f, min_speed = 0.6f,
                 max_speed = 2.0f;  // Weidmann 1993
 constexpr float longest_rest_s = 12.0f,
-                resting = 0.35f;   // the fraction of arrivals after which somebody rests
-constexpr float turn_rate = 5.0f;  // radians per second
+                resting = 0.35f;           // the fraction of arrivals after which somebody rests
+constexpr float max_people_per_m2 = 1.0f;  // Weidmann: beyond it nobody walks as they like
+constexpr float turn_rate = 5.0f;          // radians per second
 constexpr float shoulders_m = 0.21f, shoulder_range_m = 0.03f;
 
 /// A normal deviate by twelve uniform ones: bounded, and the same on every machine.
@@ -131,13 +132,22 @@ void CrowdProcess::populate(const CrowdDemand& demand, const scene::RoadGraph& r
 }
 
 void CrowdProcess::begin(scene::Scene& scene, action::SharedByProcesses&) {
-  const CrowdDemand& demand = std::as_const(scene).data<CrowdDemand>();
+  CrowdDemand demand = std::as_const(scene).data<CrowdDemand>();
   if (demand.people <= 0) return;
   const WalkingGround ground = ground_of(scene, demand.centre, demand.radius_m);
   Result<NavMesh> mesh = NavMesh::create(ground);
   if (!mesh) {
     for (const Error& reason : mesh.errors()) warn(error("crowd: {}", reason.message));
     return;
+  }
+  const float area_m2 =
+      std::min(mesh->area_m2(), std::numbers::pi_v<float> * demand.radius_m * demand.radius_m);
+  if (const int room = std::max(1, int(max_people_per_m2 * area_m2)); demand.people > room) {
+    warn(error(
+        "crowd: {} people on {:.0f} m2 of walkable ground: expected at most {}, who walk; a larger radius "
+        "gives room to more",
+        demand.people, area_m2, room));
+    demand.people = room;
   }
   heights_ = GroundHeights(ground);
   models_ = demand.models;

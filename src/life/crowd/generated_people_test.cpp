@@ -81,10 +81,10 @@ TEST_F(GeneratedPeople, AreFineWhereTheEyeIsNearAndEachIsShownOnce) {
   begin(30);
   advance(10);
   const glm::vec3 eye = glm::vec3(person(4)->world_from_model[3]) + glm::vec3(1.5f, 0.0f, 1.6f);
-  const std::size_t far_triangles = person(4)->model->triangle_count();
+  const std::size_t distant_triangles = person(4)->model->triangle_count();
   process_.adapt(scene_, std::span(&eye, 1));
   EXPECT_EQ(process_.generated()->level(4), people::Detail::near);
-  EXPECT_GT(person(4)->model->triangle_count(), 4 * far_triangles);
+  EXPECT_GT(person(4)->model->triangle_count(), 40 * distant_triangles);
   const auto shown = [&](std::size_t p) {
     return std::ranges::count_if(scene_.objects, [&](const scene::Object& object) {
       return object.is_visible && object.name == person_name(p);
@@ -95,7 +95,7 @@ TEST_F(GeneratedPeople, AreFineWhereTheEyeIsNearAndEachIsShownOnce) {
   const glm::vec3 far_away(900.0f, 0.0f, 1.6f);
   process_.adapt(scene_, std::span(&far_away, 1));
   for (std::size_t p = 0; p < 30; ++p) {
-    EXPECT_EQ(process_.generated()->level(p), people::Detail::far);
+    EXPECT_EQ(process_.generated()->level(p), people::Detail::distant);
     EXPECT_EQ(shown(p), 1) << p;
   }
 }
@@ -120,6 +120,36 @@ TEST_F(GeneratedPeople, WithoutGroundAreMissedWithAMessage) {
   process_.begin(scene_, shared_);
   EXPECT_TRUE(scene_.objects.empty());
   EXPECT_FALSE(process_.take_warnings().empty());
+}
+
+TEST_F(GeneratedPeople, OfWhomThereAreTooManyAreAsManyAsThereIsRoomFor) {
+  scene_.objects.push_back(level_ground(5.0f));
+  CrowdDemand demand;
+  demand.people = 20'000, demand.radius_m = 14.0f;
+  scene_.data<CrowdDemand>() = demand;
+  process_.begin(scene_, shared_);
+  EXPECT_LE(process_.crowd()->size(), 100u);
+  EXPECT_GT(process_.crowd()->size(), 40u);
+  const Errors warnings = process_.take_warnings();
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings.front().message.find("20000 people"), std::string::npos) << warnings.front().message;
+}
+
+TEST(PersonModel, WithTooManyJointsIsRefused) {
+  scene::Model model;
+  model.nodes.resize(501);
+  model.animations.push_back({});
+  model.animations.back().duration_s = 1.0f;
+  scene::Part part;
+  auto deformation = std::make_shared<scene::Deformation>();
+  deformation->skin.joints.resize(500);
+  part.deformation = std::move(deformation);
+  model.parts.push_back(std::move(part));
+  const Result<crowd::PersonModel> person = person_model(std::make_shared<const scene::Model>(model));
+  ASSERT_FALSE(person);
+  EXPECT_NE(to_string(person.errors()).find("500 joints"), std::string::npos);
+  model.animations.clear(), model.parts.clear();
+  EXPECT_FALSE(person_model(std::make_shared<const scene::Model>(model))) << "nor one without a skeleton";
 }
 
 TEST_F(GeneratedPeople, StandBesideTheLanes) {

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "base/disjoint_sets.h"
+#include "base/parallel.h"
 
 namespace parvis::crowd {
 namespace {
@@ -202,15 +203,17 @@ void NavMesh::Data::make(const WalkingGround& ground, glm::ivec2 first, glm::ive
       for (int x = from.x; x <= to.x; ++x)
         of_tiles[std::size_t((y - first.y) * size.x + x - first.x)].push_back(t);
   }
-  for (int y = first.y; y <= last.y; ++y)
-    for (int x = first.x; x <= last.x; ++x) {
-      mesh->removeTile(mesh->getTileRefAt(x, y, 0), nullptr, nullptr);
-      const auto& triangles = of_tiles[std::size_t((y - first.y) * size.x + x - first.x)];
-      if (triangles.empty()) continue;
-      const TileBytes tile = make_tile(ground, triangles, options, corner, {x, y});
-      if (tile.bytes && dtStatusFailed(mesh->addTile(tile.bytes, tile.size, DT_TILE_FREE_DATA, 0, nullptr)))
-        dtFree(tile.bytes);
-    }
+  const auto tile_at = [&](std::size_t i) { return first + glm::ivec2(int(i) % size.x, int(i) / size.x); };
+  std::vector<TileBytes> tiles_made(of_tiles.size());
+  parallel_for(of_tiles.size(), [&](std::size_t i) {
+    if (!of_tiles[i].empty()) tiles_made[i] = make_tile(ground, of_tiles[i], options, corner, tile_at(i));
+  });
+  for (std::size_t i = 0; i < of_tiles.size(); ++i) {
+    const TileBytes& tile = tiles_made[i];
+    mesh->removeTile(mesh->getTileRefAt(tile_at(i).x, tile_at(i).y, 0), nullptr, nullptr);
+    if (tile.bytes && dtStatusFailed(mesh->addTile(tile.bytes, tile.size, DT_TILE_FREE_DATA, 0, nullptr)))
+      dtFree(tile.bytes);
+  }
   measure();
 }
 

@@ -8,15 +8,23 @@
 namespace parvis::crowd {
 namespace {
 
-constexpr int samples = 48;            // of a cycle
-constexpr float foot_fraction = 0.2f;  // of the height, below which nodes belong to feet
-constexpr float min_step_m = 0.1f;     // less is no walking
+constexpr int samples = 48;              // of a cycle
+constexpr float foot_fraction = 0.2f;    // of the height, below which nodes belong to feet
+constexpr std::size_t max_joints = 256;  // posed for each person in every frame
+constexpr float min_step_m = 0.1f;       // less is no walking
 
 }  // namespace
 
 Result<PersonModel> person_model(std::shared_ptr<const scene::Model> model) {
   if (model->animations.empty() || model->animations.front().duration_s <= 0.0f)
     return error("a person's model has no animation; export it with a cycle of walking on the spot");
+  for (const scene::Part& part : model->parts)
+    if (part.deformation && part.deformation->skin.joints.size() > max_joints)
+      return error(
+          "a person's model has {} joints in the skin of \"{}\", expected at most {}; export it without the "
+          "bones of "
+          "face and fingers",
+          part.deformation->skin.joints.size(), part.object, max_joints);
   const scene::Animation& walk = model->animations.front();
   const float height = scene::bounds(*model).max.z;
   const std::size_t nodes = model->nodes.size();

@@ -18,8 +18,8 @@ struct PersonModel {
 };
 
 /// Measures a model: its first animation is taken for walking on the spot, and its feet are the nodes that
-/// reach lowest. Errors: the model has no animation, or none in which anything moves forward and back near
-/// the ground.
+/// reach lowest. Errors: the model has no animation, more than 256 joints in a skin, or no animation in which
+/// anything moves forward and back near the ground.
 Result<PersonModel> person_model(std::shared_ptr<const scene::Model> model);
 
 }  // namespace parvis::crowd

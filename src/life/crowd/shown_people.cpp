@@ -1,6 +1,7 @@
 #include "life/crowd/shown_people.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,9 +15,10 @@ namespace {
 using people::Detail;
 
 // At 1280 x 720 and 55 degrees a pixel is 1.4 mm wide per metre: a level is left where its error is a pixel.
-constexpr float near_m = 5.0f, middle_m = 14.0f;
-constexpr float hysteresis = 1.12f;  // of who has a finer level already
-constexpr std::size_t middle_per_look = 2;
+constexpr std::array<float, people::detail_count> level_reach_m{5.0f, 14.0f, 30.0f,
+                                                                std::numeric_limits<float>::max()};
+constexpr float hysteresis = 1.12f;                          // of who has a finer level already
+constexpr std::array<std::size_t, 3> max_per_look{1, 2, 5};  // where several people share a look
 
 constexpr float adult_leg_m = 0.86f;
 
@@ -39,19 +41,16 @@ ShownPeople::ShownPeople(std::size_t people, std::uint64_t seed) : people_(peopl
   parallel_for(shapes, [&](std::size_t i) {
     const std::uint64_t number = seed * 1009u + i;
     const people::Someone who = people::someone(number);
-    const people::Colours colours = people::colours_of(who, number);
-    std::vector<std::shared_ptr<const scene::Model>> models;
-    for (const Detail detail : {Detail::near, Detail::middle, Detail::far})
-      models.push_back(people::make_person(who, colours, detail).model);
-    made[i].emplace(Shape{who, people::BodyField(people::shape_of(who.person)), std::move(models)});
+    made[i].emplace(Shape{who, people::make_levels(who, people::colours_of(who, number))});
   });
   for (std::optional<Shape>& shape : made) shapes_.push_back(*std::move(shape));
   for (std::size_t i = 0; i < looks; ++i) {
     Look look;
     look.shape = int(i % shapes);
-    const Shape& shape = shapes_[std::size_t(look.shape)];
+    const Shape& shape = shape_of(look);
+    look.colours = people::colours_of(shape.who, seed * 7919u + i);
     look.paint = std::make_shared<const std::vector<scene::Material>>(
-        people::painted(*shape.models.front(), people::colours_of(shape.who, seed * 7919u + i)));
+        people::painted(*shape.levels.models.front(), look.colours));
     looks_.push_back(std::move(look));
   }
   for (std::size_t p = 0; p < people; ++p) people_[p].look = int(p % looks);
@@ -60,32 +59,37 @@ ShownPeople::ShownPeople(std::size_t people, std::uint64_t seed) : people_(peopl
 void ShownPeople::add_to(scene::Scene& scene, std::span<const std::string> names, bool is_visible) {
   is_visible_ = is_visible;
   const auto add = [&](std::string name, const Look& look, Detail detail) {
-    scene.objects.push_back(posed_object(
-        std::move(name), shapes_[std::size_t(look.shape)].models[std::size_t(detail)], look.paint));
+    const Shape& shape = shape_of(look);
+    const bool is_one_part = detail >= Detail::far;
+    scene.objects.push_back(posed_object(std::move(name), shape.levels.models[std::size_t(detail)],
+                                         is_one_part ? nullptr : look.paint));
+    if (is_one_part)
+      scene.objects.back().deformed_meshes[0].colours =
+          people::painted_vertices(shape.levels.covers[std::size_t(detail)], shape.who, look.colours);
     return scene.objects.size() - 1;
   };
   for (std::size_t p = 0; p < people_.size(); ++p) {
     people_[p].name = names[p];
-    people_[p].far_object = people_[p].object =
-        add(names[p], looks_[std::size_t(people_[p].look)], Detail::far);
+    people_[p].own_object = people_[p].object =
+        add(names[p], looks_[std::size_t(people_[p].look)], Detail::distant);
   }
-  const std::size_t middle = people_.size() > looks_.size() ? middle_per_look : 1;
-  for (std::size_t i = 0; i < looks_.size(); ++i) {
-    looks_[i].near.push_back(add(fmt::format("person of look {}", i + 1), looks_[i], Detail::near));
-    for (std::size_t k = 0; k < middle; ++k)
-      looks_[i].middle.push_back(add(fmt::format("person of look {}", i + 1), looks_[i], Detail::middle));
-  }
+  const std::size_t per_look = (people_.size() + looks_.size() - 1) / std::max<std::size_t>(looks_.size(), 1);
+  for (std::size_t i = 0; i < looks_.size(); ++i)
+    for (const Detail detail : {Detail::near, Detail::middle, Detail::far})
+      for (std::size_t k = 0; k < std::min(max_per_look[std::size_t(detail)], per_look); ++k)
+        looks_[i].objects[std::size_t(detail)].push_back(
+            add(fmt::format("person of look {}", i + 1), looks_[i], detail));
 }
 
 const people::BodyField& ShownPeople::body(std::size_t person) const {
-  return shapes_[std::size_t(looks_[std::size_t(people_[person].look)].shape)].body;
+  return shape_of(looks_[std::size_t(people_[person].look)]).levels.body;
 }
 
 float ShownPeople::speed(std::size_t person, float adult_m_s) const {
-  const Shape& shape = shapes_[std::size_t(looks_[std::size_t(people_[person].look)].shape)];
+  const Shape& shape = shape_of(looks_[std::size_t(people_[person].look)]);
   const float old =
       std::clamp((shape.who.person.age - 55.0f) / 40.0f, 0.0f, 1.0f);  // Weidmann 1993, figure 14
-  return adult_m_s * std::sqrt(shape.body.shape().leg() / adult_leg_m) * (1.0f - 0.35f * old);
+  return adult_m_s * std::sqrt(shape.levels.body.shape().leg() / adult_leg_m) * (1.0f - 0.35f * old);
 }
 
 void ShownPeople::place(std::size_t person, const people::Lead& lead, const people::Posture& posture) {
@@ -126,20 +130,21 @@ void ShownPeople::adapt(scene::Scene& scene, std::span<const glm::vec3> eyes) {
     by_distance.emplace_back(distance, p);
   }
   std::ranges::sort(by_distance);
-  std::vector<std::size_t> near_used(looks_.size(), 0), middle_used(looks_.size(), 0), changed;
-  std::vector<std::size_t> chosen(people_.size());
+  std::vector<std::array<std::size_t, people::detail_count>> used(looks_.size());
+  std::vector<std::size_t> changed, chosen(people_.size());
   for (const auto& [distance, p] : by_distance) {
     ShownPerson& it = people_[p];
     const auto look = std::size_t(it.look);
-    const auto within = [&](float reach, Detail level) {
-      return distance < reach * (it.level <= level ? hysteresis : 1.0f);
-    };
-    Detail level = Detail::far;
-    std::size_t object = it.far_object;
-    if (within(near_m, Detail::near) && near_used[look] < looks_[look].near.size())
-      level = Detail::near, object = looks_[look].near[near_used[look]++];
-    else if (within(middle_m, Detail::middle) && middle_used[look] < looks_[look].middle.size())
-      level = Detail::middle, object = looks_[look].middle[middle_used[look]++];
+    Detail level = Detail::distant;
+    std::size_t object = it.own_object;
+    for (const Detail finer : {Detail::near, Detail::middle, Detail::far}) {
+      const std::vector<std::size_t>& objects = looks_[look].objects[std::size_t(finer)];
+      std::size_t& next = used[look][std::size_t(finer)];
+      if (distance > level_reach_m[std::size_t(finer)] * (it.level <= finer ? hysteresis : 1.0f)) continue;
+      if (next == objects.size()) continue;
+      level = finer, object = objects[next++];
+      break;
+    }
     chosen[p] = object;
     it.level = level;
   }

@@ -1,5 +1,5 @@
-// Generated people as objects of a scene, at three levels of detail: who is near an eye is shown in full, who
-// is far by a mesh whose edges are about a pixel long there.
+// Generated people as objects of a scene, at four levels of detail: who is near an eye is shown in full, who
+// is far by a mesh whose edges are a few pixels long there.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ class ShownPeople {
   /// Makes the bodies of so many people; the same seed makes the same.
   ShownPeople(std::size_t people, std::uint64_t seed);
 
-  /// Adds their objects to a scene, all of them far; `names` are those of the people.
+  /// Adds their objects to a scene, all of them distant; `names` are those of the people.
   void add_to(scene::Scene& scene, std::span<const std::string> names, bool is_visible);
 
   /// The body of a person.
@@ -39,28 +39,29 @@ class ShownPeople {
   people::Detail level(std::size_t person) const { return people_[person].level; }
 
  private:
-  /// A body at its levels; people of one shape share its meshes.
+  /// Somebody at all levels; people of one shape share the meshes.
   struct Shape {
     people::Someone who;
-    people::BodyField body;
-    std::vector<std::shared_ptr<const scene::Model>> models;  ///< by people::Detail
+    people::PersonLevels levels;
   };
   /// A shape in colours, with the objects that show whoever of that look is near.
   struct Look {
     int shape = 0;
-    std::shared_ptr<const std::vector<scene::Material>> paint;
-    std::vector<std::size_t> near, middle;  ///< objects of the scene
+    people::Colours colours;
+    std::shared_ptr<const std::vector<scene::Material>> paint;           ///< of near and middle
+    std::array<std::vector<std::size_t>, people::detail_count> objects;  ///< of the scene, but distant ones
   };
   struct ShownPerson {
     int look = 0;
-    std::size_t far_object = 0, object = 0;  ///< object: the one that shows the person now
-    people::Detail level = people::Detail::far;
+    std::size_t own_object = 0, object = 0;  ///< own: distant; object: the one that shows the person now
+    people::Detail level = people::Detail::distant;
     people::Lead lead;
     people::Posture posture;
     std::string name;
   };
 
   void show_person(scene::Scene& scene, std::size_t person) const;
+  const Shape& shape_of(const Look& look) const { return shapes_[std::size_t(look.shape)]; }
 
   std::vector<Shape> shapes_;
   std::vector<Look> looks_;

@@ -20,6 +20,7 @@ constexpr int separations = 3;  // rounds of pushing apart
 constexpr float slow = 0.2f, patience_s = 1.0f;  // of the free speed; until somebody is blocked
 constexpr float free_way_m = 1e9f;
 constexpr float along_horizon_s = 0.4f;  // for which those are cleared who walk the same way
+constexpr float same_way = 0.97f;        // cosine of the angle between aims: behind one another
 constexpr float content = 0.9f;          // of the free speed: no other way is sought
 constexpr float reluctance = 1.08f;      // to turn: by so much another way must be faster
 constexpr std::array turns_rad = {0.3f, 0.6f, 1.0f, 1.5f};  // radians from the aim
@@ -113,7 +114,9 @@ Steering::Around Steering::look_around(std::size_t number) const {
     const glm::vec2 to = other.position - self.position;
     around.x[n] = to.x, around.y[n] = to.y;
     around.bodies[n] = self.radius_m + other.radius_m;
-    around.room[n] = std::max(std::sqrt(found[n].distance_2) - rules_.headway_body * around.bodies[n], 0.0f);
+    const bool goes_along = glm::dot(self.aim, other.aim) > same_way;
+    const float body = goes_along ? rules_.headway_stride : rules_.headway_body;
+    around.room[n] = std::max(std::sqrt(found[n].distance_2) - body * around.bodies[n], 0.0f);
     around.index[n] = found[n].index;
     // Of two who are in each other's way one goes first.
     const float before_it = -glm::dot(to, other.aim),

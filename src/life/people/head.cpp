@@ -12,17 +12,20 @@ namespace {
 using glm::vec3;
 
 const vec3 centre_of_grid(0.03f, 0.0f, 0.43f);
-constexpr float neck_rows = 0.13f;  // the fraction of rows below the jaw
+constexpr float face_reach = 0.85f, hair_reach = 1.25f;  // from where rays begin, which surfaces do not pass
+constexpr float neck_rows = 0.13f;                       // the fraction of rows below the jaw
 constexpr float neck_x = -0.15f, neck_low = -0.36f, neck_high = -0.05f;
 
 float soft_step(float from, float to, float x) {
   const float t = glm::clamp((x - from) / (to - from), 0.0f, 1.0f);
   return t * t * (3.0f - 2.0f * t);
 }
-float bump(float x, float width) { return std::exp(-(x / width) * (x / width)); }
+constexpr float far_out = 9.0f;  // beyond it a bump is below 1.3e-4
+float bump_of_square(float square) { return square < far_out ? std::exp(-square) : 0.0f; }
+float bump(float x, float width) { return bump_of_square((x / width) * (x / width)); }
 float bump(vec3 p, vec3 middle, float width) {
   const vec3 d = (p - middle) / width;
-  return std::exp(-glm::dot(d, d));
+  return bump_of_square(glm::dot(d, d));
 }
 
 /// A ray of the grid: `u` around from the back, 0..1, `v` from the neck, 0, to the vertex, 1.
@@ -44,10 +47,9 @@ GridRay ray_of(float u, float v) {
   return {centre_of_grid, std::cos(elevation) * out + vec3(0, 0, std::sin(elevation))};
 }
 
-/// Where the ray comes upon the surface from outside.
+/// Where the ray comes upon the surface from outside, at most `t` along it.
 template <class Distance>
-vec3 cast(const GridRay& ray, const Distance& distance) {
-  float t = 1.25f;
+vec3 cast(const GridRay& ray, const Distance& distance, float t) {
   for (int i = 0; i < 60 && t > 0.02f; ++i) {
     const float d = distance(ray.origin + t * ray.direction);
     if (d < 4e-4f) break;
@@ -145,6 +147,23 @@ float HeadField::skull(vec3 q) const {
       d, ellipsoid(p, {0.262f + 0.012f * l.jaw, 0.0f, 0.078f}, {0.078f, 0.088f + 0.02f * male, 0.072f}),
       0.07f);
   d = smooth_min(d, round_cone(p, {0.05f, 0.10f, 0.10f}, {0.22f, 0.05f, 0.07f}, 0.07f, 0.06f), 0.10f);
+  if (p.x > 0.0f) d = front(p, d);
+  // Neck: it leans forward, and is wider than deep.
+  const float girth = l.is_female ? 0.205f : 0.245f;
+  const vec3 thin(p.x, 0.96f * p.y, p.z);
+  d = smooth_min(
+      d, round_cone(thin, {-0.10f, 0.0f, 0.22f}, {neck_x - 0.03f, 0.0f, -0.45f}, girth - 0.01f, girth),
+      0.09f);
+  if (p.z > 0.5f) return d;
+  d = smooth_min(d, round_cone(p, {-0.12f, 0.195f, 0.16f}, {0.02f, 0.05f, -0.36f}, 0.035f, 0.04f), 0.07f);
+  if (!l.is_female) d = smooth_min(d, glm::distance(p, vec3(0.088f, 0.0f, -0.13f)) - 0.030f, 0.06f);
+  return d;
+}
+
+/// The features of the face that stand out in front; they reach no place behind the ears.
+float HeadField::front(vec3 p, float d) const {
+  const HeadLook& l = look_;
+  const float male = l.is_female ? 0.0f : 1.0f;
   // Cheek bones, and the flesh below them.
   d = smooth_min(d, ellipsoid(p, {0.215f, 0.170f, 0.425f}, {0.100f, 0.085f + 0.01f * l.cheeks, 0.075f}),
                  0.10f);
@@ -157,22 +176,26 @@ float HeadField::skull(vec3 q) const {
   d = smooth_max(d, -ellipsoid(p, {0.372f, 0.146f, 0.515f}, {0.080f, 0.082f, 0.062f}), 0.055f);
   d = smooth_min(d, glm::distance(p, vec3(0.252f, 0.146f, 0.512f)) - 0.0585f - 0.003f * l.eyes, 0.022f);
   // Mouth over the teeth.
-  d = smooth_min(d, ellipsoid(p, {0.262f, 0.0f, 0.225f}, {0.090f, 0.130f, 0.105f}), 0.08f);
-  // Neck: it leans forward, and is wider than deep.
-  const float girth = l.is_female ? 0.205f : 0.245f;
-  const vec3 thin(p.x, 0.96f * p.y, p.z);
-  d = smooth_min(
-      d, round_cone(thin, {-0.10f, 0.0f, 0.22f}, {neck_x - 0.03f, 0.0f, -0.45f}, girth - 0.01f, girth),
-      0.09f);
-  d = smooth_min(d, round_cone(p, {-0.12f, 0.195f, 0.16f}, {0.02f, 0.05f, -0.36f}, 0.035f, 0.04f), 0.07f);
-  if (!l.is_female) d = smooth_min(d, glm::distance(p, vec3(0.088f, 0.0f, -0.13f)) - 0.030f, 0.06f);
-  return d;
+  return smooth_min(d, ellipsoid(p, {0.262f, 0.0f, 0.225f}, {0.090f, 0.130f, 0.105f}), 0.08f);
 }
 
 float HeadField::face(vec3 q) const {
   const vec3 p(q.x, std::abs(q.y), q.z);
-  const HeadLook& l = look_;
   float d = skull(q);
+  if (p.x > 0.2f) d = nose_and_lips(p, d);
+  if (p.y < 0.2f) return d;
+  // Ears: a shell with a concave middle.
+  const float turned = 0.28f;
+  const vec3 e = p - vec3(-0.035f, 0.306f, 0.466f);
+  const vec3 ear(std::cos(turned) * e.x + std::sin(turned) * e.y,
+                 std::cos(turned) * e.y - std::sin(turned) * e.x, e.z);
+  float shell = ellipsoid(ear, {-0.005f, 0.0f, 0.0f}, {0.070f, 0.024f, 0.125f});
+  shell = smooth_max(shell, -ellipsoid(ear, {0.012f, 0.032f, 0.012f}, {0.042f, 0.026f, 0.080f}), 0.016f);
+  return smooth_min(d, shell, 0.018f);
+}
+
+float HeadField::nose_and_lips(vec3 p, float d) const {
+  const HeadLook& l = look_;
   // Nose: bridge, tip, wings; nostrils.
   const float longer = 0.022f * l.nose;
   const vec3 tip(0.452f + longer, 0.0f, 0.340f - 0.4f * longer);
@@ -197,14 +220,6 @@ float HeadField::face(vec3 q) const {
   if (l.age > 50.0f)  // folds beside the nose
     d = smooth_max(d, -round_cone(p, {0.352f, 0.085f, 0.315f}, {0.312f, 0.142f, 0.20f}, 0.006f, 0.004f),
                    0.03f);
-  // Ears: a shell with a concave middle.
-  const float turned = 0.28f;
-  const vec3 e = p - vec3(-0.035f, 0.306f, 0.466f);
-  const vec3 ear(std::cos(turned) * e.x + std::sin(turned) * e.y,
-                 std::cos(turned) * e.y - std::sin(turned) * e.x, e.z);
-  float shell = ellipsoid(ear, {-0.005f, 0.0f, 0.0f}, {0.070f, 0.024f, 0.125f});
-  shell = smooth_max(shell, -ellipsoid(ear, {0.012f, 0.032f, 0.012f}, {0.042f, 0.026f, 0.080f}), 0.016f);
-  d = smooth_min(d, shell, 0.018f);
   return d;
 }
 
@@ -243,7 +258,7 @@ float HeadField::hair(vec3 p) const {
 Mesh head_mesh(const HeadField& field, int columns, int rows) {
   const Field distance = [&](vec3 p) { return field.face(p); };
   return grid_mesh(columns, rows, [&](float u, float v, vec3& position, vec3& normal) {
-    const vec3 p = cast(ray_of(u, v), distance);
+    const vec3 p = cast(ray_of(u, v), distance, face_reach);
     position = field.in_model(p), normal = normal_of(distance, p, 0.006f);
   });
 }
@@ -258,7 +273,7 @@ Mesh hair_mesh(const HeadField& field, const HeadLook& look, int columns, int ro
     const GridRay ray{{-0.06f, 0.0f, 0.50f},
                       std::cos(elevation) * vec3(std::cos(azimuth), std::sin(azimuth), 0.0f) +
                           vec3(0, 0, std::sin(elevation))};
-    const vec3 p = cast(ray, distance);
+    const vec3 p = cast(ray, distance, hair_reach);
     unit.push_back(p);
     position = p, normal = normal_of(distance, p, 0.012f);
   });
@@ -275,6 +290,11 @@ namespace {
 /// The colour of the skin at a place of the face, linear.
 vec3 face_colour(const HeadLook& l, vec3 q, const HeadField& field) {
   const vec3 p(q.x, std::abs(q.y), q.z);
+  // The scalp under the hair.
+  const float scalp = l.style == HairStyle::bald || (covers_ears(l.style) && q.z < 0.4f)
+                          ? 0.0f
+                          : soft_step(0.015f, -0.02f, field.hairline(q));
+  if (scalp >= 1.0f) return glm::mix(l.skin, l.hair, 0.85f);
   vec3 colour = l.skin * (1.0f + 0.05f * smooth_noise(q * 22.0f) + 0.03f * smooth_noise(q * 70.0f));
   const auto tint = [&](vec3 factor, float part) {
     colour *= glm::mix(vec3(1.0f), factor, glm::clamp(part, 0.0f, 1.0f));
@@ -289,7 +309,6 @@ vec3 face_colour(const HeadLook& l, vec3 q, const HeadField& field) {
   tint({1.05f, 0.82f, 0.80f}, 0.6f * bump(p, {-0.03f, 0.36f, 0.46f}, 0.12f));
   tint({1.04f, 0.90f, 0.88f}, 0.4f * bump(p, {0.33f, 0.0f, 0.08f}, 0.07f));
   // What hardly sees the sky.
-  tint(vec3(0.72f), is_front ? 0.0f : 0.0f);
   tint(vec3(0.70f, 0.62f, 0.60f), soft_step(0.05f, -0.10f, q.z) * 0.5f);
   tint({0.78f, 0.66f, 0.64f}, 0.75f * bump(p, {0.30f, 0.105f, 0.535f}, 0.05f));
   tint({0.86f, 0.74f, 0.70f},
@@ -338,18 +357,21 @@ vec3 face_colour(const HeadLook& l, vec3 q, const HeadField& field) {
     const float lip = bump(p.z - 0.252f, 0.02f) * soft_step(0.13f, 0.10f, p.y) * soft_step(0.20f, 0.3f, p.x);
     const float mouth = soft_step(0.125f, 0.095f, p.y) * bump(p.z - 0.198f, 0.03f);
     const float grown = glm::clamp(std::max({jaw, side, lip}) - mouth, 0.0f, 1.0f);
-    const float bristle = 0.75f + 0.25f * smooth_noise(q * 150.0f);
     tint({0.80f, 0.80f, 0.84f}, 0.6f * grown);
-    cover(l.hair * 1.3f, l.beard * grown * bristle);
+    if (l.beard * grown > 0.0f)
+      cover(l.hair * 1.3f, l.beard * grown * (0.75f + 0.25f * smooth_noise(q * 150.0f)));
   }
   // Brows.
   if (is_front) {
     const float t = (p.y - 0.135f) / 0.095f,
                 middle = 0.598f + 0.018f * (1.0f - (t - 0.25f) * (t - 0.25f)) - 0.012f * std::max(0.0f, t);
     const float half = (l.is_female ? 0.0085f : 0.0135f) * (1.0f - 0.55f * soft_step(0.0f, 1.0f, t));
-    const float hairs = 0.72f + 0.28f * smooth_noise(vec3(q.y * 150.0f + 60.0f * q.z, q.z * 60.0f, 3.0f));
-    cover(l.hair * 0.9f, 0.9f * hairs * soft_step(half + 0.008f, half - 0.003f, std::abs(p.z - middle)) *
-                             soft_step(1.05f, 0.85f, std::abs(t)));
+    const float grown = soft_step(half + 0.008f, half - 0.003f, std::abs(p.z - middle)) *
+                        soft_step(1.05f, 0.85f, std::abs(t));
+    if (grown > 0.0f)
+      cover(
+          l.hair * 0.9f,
+          0.9f * grown * (0.72f + 0.28f * smooth_noise(vec3(q.y * 150.0f + 60.0f * q.z, q.z * 60.0f, 3.0f))));
   }
   // Eyes.
   if (is_front) {
@@ -388,10 +410,7 @@ vec3 face_colour(const HeadLook& l, vec3 q, const HeadField& field) {
       colour = glm::mix(colour, eye, open);
     }
   }
-  // The scalp under the hair.
-  if (l.style != HairStyle::bald)
-    cover(l.hair, 0.85f * soft_step(0.015f, -0.02f, field.hairline(q)) *
-                      (covers_ears(l.style) && q.z < 0.4f ? 0.0f : 1.0f));
+  cover(l.hair, 0.85f * scalp);
   return glm::clamp(colour, 0.0f, 1.0f);
 }
 
@@ -399,12 +418,12 @@ vec3 face_colour(const HeadLook& l, vec3 q, const HeadField& field) {
 
 Image8 face_texture(const HeadField& field, const HeadLook& look, int size) {
   // Positions on a coarser grid, between which those of texels are linear.
-  constexpr int columns = 112, rows = 112;
+  constexpr int columns = 76, rows = 84;
   std::vector<vec3> places;
   const auto distance = [&](vec3 p) { return field.face(p); };
   for (int r = 0; r <= rows; ++r)
     for (int c = 0; c <= columns; ++c)
-      places.push_back(cast(ray_of(float(c) / float(columns), float(r) / float(rows)), distance));
+      places.push_back(cast(ray_of(float(c) / float(columns), float(r) / float(rows)), distance, face_reach));
   Image8 image(size, size, 4, 255);
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {

@@ -43,6 +43,9 @@ class HeadField {
   float hairline(glm::vec3 p) const;
 
  private:
+  float front(glm::vec3 p, float d) const;
+  float nose_and_lips(glm::vec3 p, float d) const;
+
   HeadLook look_;
   glm::vec3 origin_;
   float size_m_;

@@ -44,12 +44,13 @@ TEST(PersonModel, IsSoundAtEveryLevelForPeopleOfAllKinds) {
     const Someone who = someone(number);
     const Colours colours = colours_of(who, number);
     std::array<std::size_t, detail_count> count{};
-    for (const Detail detail : {Detail::near, Detail::middle, Detail::far}) {
-      const PersonMesh person = make_person(who, colours, detail);
-      ASSERT_EQ(person.model->nodes.size(), std::size_t(bone_count) + 1);
-      EXPECT_EQ(person.model->materials.size(), std::size_t(surface_count));
-      for (const scene::Part& part : person.model->parts) {
+    const PersonLevels person = make_levels(who, colours);
+    for (std::size_t level = 0; level < detail_count; ++level) {
+      const scene::Model& model = *person.models[level];
+      ASSERT_EQ(model.nodes.size(), std::size_t(bone_count) + 1);
+      for (const scene::Part& part : model.parts) {
         EXPECT_TRUE(check(part.mesh, part.object)) << number << " " << part.object;
+        ASSERT_LT(std::size_t(part.material), model.materials.size());
         ASSERT_TRUE(part.deformation) << "skinned";
         for (std::size_t v = 0; v < part.mesh.positions.size(); ++v) {
           const glm::vec4 w = part.deformation->skin.weights[v];
@@ -58,22 +59,44 @@ TEST(PersonModel, IsSoundAtEveryLevelForPeopleOfAllKinds) {
         }
       }
       const float stature = person.body.shape().stature;
-      const Bounds box = scene::bounds(*person.model);
+      const Bounds box = scene::bounds(model);
       EXPECT_NEAR(box.min.z, 0.0f, 0.03f);
       EXPECT_NEAR(box.max.z, stature, 0.09f * stature) << "hair and hats above the vertex";
       EXPECT_LT(box.size().x, 0.45f * stature);
-      count[std::size_t(detail)] = vertices_of(*person.model);
+      count[level] = vertices_of(model);
     }
     EXPECT_LE(count[0], 10'000u) << number;
     EXPECT_LT(2 * count[1], count[0]);
     EXPECT_LT(2 * count[2], count[1]);
-    EXPECT_LT(count[2], 1'600u);
+    EXPECT_LT(count[2], 1'200u);
+    EXPECT_LT(count[3], 200u);
+  }
+}
+
+TEST(PersonModel, WearsOtherColoursAsOnePart) {
+  const Someone who = someone(5);
+  const PersonLevels person = make_levels(who, colours_of(who, 5));
+  for (const Detail detail : {Detail::far, Detail::distant}) {
+    const auto level = std::size_t(detail);
+    ASSERT_EQ(person.models[level]->parts.size(), 1u);
+    const PersonLevels::Cover& cover = person.covers[level];
+    ASSERT_EQ(cover.surfaces.size(), vertices_of(*person.models[level]));
+    Colours red = colours_of(who, 5);
+    const std::vector<glm::vec4> before = painted_vertices(cover, who, red);
+    red.top = {1, 0, 0};
+    const std::vector<glm::vec4> after = painted_vertices(cover, who, red);
+    for (std::size_t v = 0; v < after.size(); ++v)
+      if (cover.surfaces[v] == top_cloth)
+        EXPECT_EQ(after[v].y, 0.0f);
+      else
+        EXPECT_EQ(after[v], before[v]);
+    EXPECT_GT(std::ranges::count(cover.surfaces, top_cloth), 5);
   }
 }
 
 TEST(PersonModel, FollowsFromItsNumberAndDiffersByIt) {
   const auto model = [](std::uint64_t number) {
-    return make_person(someone(number), colours_of(someone(number), number), Detail::far).model;
+    return make_person(someone(number), colours_of(someone(number), number)).model;
   };
   const auto a = model(3), b = model(3), c = model(4);
   ASSERT_EQ(vertices_of(*a), vertices_of(*b));

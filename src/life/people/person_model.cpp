@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/colour.h"
+#include "life/people/one_part.h"
+#include "scene/data/mip_levels.h"
 
 namespace parvis::people {
 namespace {
@@ -84,27 +86,9 @@ void add_animations(const BodyField& body, float speed_m_s, scene::Model& model)
   }
 }
 
-/// A mesh bound to the bones as a part of the model.
 void add_part(const BodyField& body, const char* name, Mesh mesh, Surface surface, Moves moves,
               scene::Model& model) {
-  if (mesh.indices.empty()) return;
-  auto deformation = std::make_shared<scene::Deformation>();
-  deformation->positions = mesh.positions, deformation->normals = mesh.normals;
-  scene::Skin& skin = deformation->skin;
-  for (int b = 0; b < bone_count; ++b) {
-    skin.joints.push_back(b + 1);
-    glm::mat4 joint_from_mesh(1.0f);
-    joint_from_mesh[3] = glm::vec4(-body.skeleton().joint[std::size_t(b)], 1.0f);
-    skin.joint_from_mesh.push_back(joint_from_mesh);
-  }
-  for (const vec3 p : mesh.positions) {
-    const BoundVertex v = bound(body, p, moves);
-    skin.joints_of_vertex.push_back(v.bones), skin.weights.push_back(v.weights);
-  }
-  scene::Part part;
-  part.object = name, part.mesh = std::move(mesh), part.material = surface;
-  part.deformation = std::move(deformation);
-  model.parts.push_back(std::move(part));
+  if (!mesh.indices.empty()) model.parts.push_back(bound_part(body, name, std::move(mesh), surface, moves));
 }
 
 Mesh hat_mesh(const HeadField& head, Hat hat, float cell_m) {
@@ -129,9 +113,9 @@ Mesh hat_mesh(const HeadField& head, Hat hat, float cell_m) {
   return mesh;
 }
 
-std::vector<scene::Texture> textures(const HeadField& head, const HeadLook& look, int size) {
+std::vector<scene::Texture> textures(Image8 face) {
   std::vector<scene::Texture> list(3);
-  list[0].name = "face", list[0].image = face_texture(head, look, size);
+  list[0].name = "face", list[0].image = std::move(face);
   list[0].wrap_u = scene::Wrap::repeat, list[0].wrap_v = scene::Wrap::clamp;
   static const Image8 strands = strand_texture(256), normals = strand_normals(256);
   list[1].name = "strands", list[1].image = strands;
@@ -143,6 +127,40 @@ scene::Material material(const char* name, vec3 colour, float roughness) {
   scene::Material result;
   result.name = name, result.base_colour = colour, result.roughness = roughness;
   return result;
+}
+
+/// A person's parts and materials, without textures and animations.
+scene::Model dressed_model(const BodyField& body, const HeadField& head, const Someone& who,
+                           const Colours& colours, Detail detail) {
+  scene::Model model;
+  model.name = "person";
+  model.nodes = nodes_of(body.skeleton());
+  model.materials = {material("face", vec3(1.0f), 0.52f),     material("skin", who.head.skin, 0.55f),
+                     material("hair", who.head.hair, 0.62f),  material("top", colours.top, 0.88f),
+                     material("shirt", colours.shirt, 0.85f), material("bottom", colours.bottom, 0.88f),
+                     material("shoes", colours.shoes, 0.5f),  material("accessory", colours.accessory, 0.6f)};
+  model.materials[face_skin].base_colour_texture = 0;
+  scene::Material& locks_of = model.materials[hair];
+  locks_of.base_colour_texture = 1, locks_of.normal_texture = 2, locks_of.is_double_sided = true;
+  for (const Surface s : {top_cloth, bottom_cloth}) model.materials[s].is_double_sided = true;
+  constexpr std::array<float, 3> cells{1.24f, 1.95f, 3.9f};
+  constexpr std::array<glm::ivec2, 3> head_cells{{{52, 48}, {30, 28}, {12, 12}}},
+      hair_cells{{{44, 26}, {24, 14}, {10, 7}}};
+  const auto level = std::size_t(detail);
+  add_part(body, "head", head_mesh(head, head_cells[level].x, head_cells[level].y), face_skin,
+           Moves::head_and_neck, model);
+  Mesh locks = hair_mesh(head, who.head, hair_cells[level].x, hair_cells[level].y);
+  if (who.outfit.hat != Hat::none && !locks.indices.empty()) {  // below the hat
+    const float rim = head.in_model(vec3(0.0f, 0.0f, 0.70f)).z;
+    locks = clipped(locks, [&](vec3 p) { return p.z - rim; });
+  }
+  add_part(body, "hair", std::move(locks), hair, Moves::head_and_neck, model);
+  if (who.outfit.hat != Hat::none)
+    add_part(body, "hat", hat_mesh(head, who.outfit.hat, 0.011f * cells[level]), accessory,
+             Moves::head_and_neck, model);
+  for (Garment& garment : dressed(body, who.outfit, cells[level]))
+    add_part(body, garment.name, std::move(garment.mesh), garment.surface, garment.moves, model);
+  return model;
 }
 
 }  // namespace
@@ -260,55 +278,57 @@ std::vector<scene::Material> painted(const scene::Model& model, const Colours& c
   return materials;
 }
 
-PersonMesh make_person(const Someone& who, const Colours& colours, Detail detail, float speed_m_s) {
+PersonMesh make_person(const Someone& who, const Colours& colours, float speed_m_s) {
   PersonMesh result{BodyField(shape_of(who.person)), nullptr};
-  const BodyField& body = result.body;
-  const HeadField head(body, who.head);
-  auto model = std::make_shared<scene::Model>();
-  model->name = "person";
-  model->nodes = nodes_of(body.skeleton());
-  model->textures = textures(head, who.head,
-                             detail == Detail::near     ? 512
-                             : detail == Detail::middle ? 256
-                                                        : 64);
-  const auto face = [&] {
-    scene::Material m = material("face", vec3(1.0f), 0.52f);
-    m.base_colour_texture = 0;
-    return m;
+  const HeadField head(result.body, who.head);
+  scene::Model model = dressed_model(result.body, head, who, colours, Detail::near);
+  model.textures = textures(face_texture(head, who.head, 512));
+  add_animations(result.body, speed_m_s, model);
+  result.model = std::make_shared<const scene::Model>(std::move(model));
+  return result;
+}
+
+PersonLevels make_levels(const Someone& who, const Colours& colours) {
+  PersonLevels result{BodyField(shape_of(who.person)), {}, {}};
+  const HeadField head(result.body, who.head);
+  std::vector<scene::Texture> list = textures(face_texture(head, who.head, 384));
+  const Image8 half = scene::mip_levels(list[0], 0)[1], small = scene::mip_levels(list[0], 0)[3];
+  const auto keep = [&](Detail detail, scene::Model model) {
+    result.models[std::size_t(detail)] = std::make_shared<const scene::Model>(std::move(model));
   };
-  const auto hair_of = [&] {
-    scene::Material m = material("hair", who.head.hair, 0.62f);
-    m.base_colour_texture = 1, m.normal_texture = 2, m.is_double_sided = true;
-    return m;
-  };
-  model->materials = {face(),
-                      material("skin", who.head.skin, 0.55f),
-                      hair_of(),
-                      material("top", colours.top, 0.88f),
-                      material("shirt", colours.shirt, 0.85f),
-                      material("bottom", colours.bottom, 0.88f),
-                      material("shoes", colours.shoes, 0.5f),
-                      material("accessory", colours.accessory, 0.6f)};
-  for (const Surface s : {top_cloth, bottom_cloth}) model->materials[s].is_double_sided = true;
-  constexpr std::array<float, detail_count> cells{1.24f, 1.95f, 3.3f};
-  constexpr std::array<glm::ivec2, detail_count> head_cells{{{52, 48}, {30, 28}, {14, 14}}},
-      hair_cells{{{44, 26}, {24, 14}, {12, 8}}};
-  const auto level = std::size_t(detail);
-  add_part(body, "head", head_mesh(head, head_cells[level].x, head_cells[level].y), face_skin,
-           Moves::head_and_neck, *model);
-  Mesh locks = hair_mesh(head, who.head, hair_cells[level].x, hair_cells[level].y);
-  if (who.outfit.hat != Hat::none && !locks.indices.empty()) {  // below the hat
-    const float rim = head.in_model(vec3(0.0f, 0.0f, 0.70f)).z;
-    locks = clipped(locks, [&](vec3 p) { return p.z - rim; });
+  scene::Model near = dressed_model(result.body, head, who, colours, Detail::near);
+  near.textures = list;
+  keep(Detail::near, std::move(near));
+  scene::Model middle = dressed_model(result.body, head, who, colours, Detail::middle);
+  list[0].image = half;
+  middle.textures = std::move(list);
+  keep(Detail::middle, std::move(middle));
+  scene::Model far = dressed_model(result.body, head, who, colours, Detail::far);
+  OnePart joined;
+  for (const scene::Part& part : far.parts) joined.add(part, part.material == face_skin ? &small : nullptr);
+  OnePart simple = distant_body(result.body, head, who);
+  for (const auto& [detail, one] : {std::pair(Detail::far, &joined), {Detail::distant, &simple}}) {
+    PersonLevels::Cover& cover = result.covers[std::size_t(detail)];
+    cover = {std::move(one->surfaces), std::move(one->part.mesh.colours)};
+    one->part.mesh.colours = painted_vertices(cover, who, colours);
+    scene::Model model;
+    model.name = "person", model.nodes = nodes_of(result.body.skeleton());
+    model.materials = {material("person", vec3(1.0f), 0.8f)};
+    model.materials[0].is_double_sided = detail == Detail::far;
+    model.parts = {std::move(one->part)};
+    keep(detail, std::move(model));
   }
-  add_part(body, "hair", std::move(locks), Surface::hair, Moves::head_and_neck, *model);
-  if (who.outfit.hat != Hat::none)
-    add_part(body, "hat", hat_mesh(head, who.outfit.hat, 0.011f * cells[level]), accessory,
-             Moves::head_and_neck, *model);
-  for (Garment& garment : dressed(body, who.outfit, cells[level]))
-    add_part(body, garment.name, std::move(garment.mesh), garment.surface, garment.moves, *model);
-  add_animations(body, speed_m_s, *model);
-  result.model = std::move(model);
+  return result;
+}
+
+std::vector<glm::vec4> painted_vertices(const PersonLevels::Cover& cover, const Someone& who,
+                                        const Colours& colours) {
+  constexpr float strands = 0.7f;  // of the hair's colour, their mean
+  const std::array<vec3, surface_count> of_surface{vec3(1.0f),    who.head.skin,    strands * who.head.hair,
+                                                   colours.top,   colours.shirt,    colours.bottom,
+                                                   colours.shoes, colours.accessory};
+  std::vector<glm::vec4> result = cover.shades;
+  for (std::size_t v = 0; v < result.size(); ++v) result[v] *= glm::vec4(of_surface[cover.surfaces[v]], 1.0f);
   return result;
 }
 

@@ -1,7 +1,9 @@
 // People as skinned models: a body of an age, sex and build, its face and hair, its clothes.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <vector>
 
 #include "life/people/clothes.h"
 #include "life/people/gait.h"
@@ -20,9 +22,10 @@ struct Someone {
 enum class Detail : std::uint8_t {
   near,    ///< 10,000 vertices: bears a look from two metres
   middle,  ///< a fourth
-  far      ///< a fifteenth
+  far,     ///< a tenth, one mesh
+  distant  ///< 180 vertices at most, one mesh
 };
-inline constexpr int detail_count = 3;
+inline constexpr int detail_count = 4;
 
 /// Colours of what somebody wears, linear.
 struct Colours {
@@ -43,7 +46,25 @@ struct PersonMesh {
   std::shared_ptr<const scene::Model> model;
 };
 /// Makes a person; `speed_m_s` is that of the animation "walk".
-PersonMesh make_person(const Someone& who, const Colours& colours, Detail detail, float speed_m_s = 1.3f);
+PersonMesh make_person(const Someone& who, const Colours& colours, float speed_m_s = 1.3f);
+
+/// Somebody at every level of detail. Models of the levels `far` and `distant` have one part and one
+/// material: what somebody wears is in the colours of their vertices.
+struct PersonLevels {
+  BodyField body;
+  std::array<std::shared_ptr<const scene::Model>, detail_count> models;
+  /// The surfaces and shades that the vertices of a model of one part show.
+  struct Cover {
+    std::vector<Surface> surfaces;  ///< of each vertex
+    std::vector<glm::vec4> shades;  ///< of folds; of the face, its colour
+  };
+  std::array<Cover, detail_count> covers;
+};
+/// Makes somebody at every level, without animations; models of one part are in these colours.
+PersonLevels make_levels(const Someone& who, const Colours& colours);
+/// Colours of the vertices of a model of one part.
+std::vector<glm::vec4> painted_vertices(const PersonLevels::Cover& cover, const Someone& who,
+                                        const Colours& colours);
 
 /// The materials of a model in other colours.
 std::vector<scene::Material> painted(const scene::Model& model, const Colours& colours);

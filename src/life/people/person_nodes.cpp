@@ -52,8 +52,8 @@ void build_person(const Node& node, SceneBuilder& builder) {
   const std::string key = fmt::format("person {} {} {} {}", seed, int(wanted), age, speed);
   scene::Object object;
   object.name = node.gives("name") ? node.text("name") : "person";
-  object.model = builder.shared_model(
-      key, [&] { return make_person(who, colours_of(who, seed), Detail::near, speed).model; });
+  object.model =
+      builder.shared_model(key, [&] { return make_person(who, colours_of(who, seed), speed).model; });
   object.world_from_model = builder.world_from_parent() * scene::placement(node);
   object.is_visible = builder.is_visible() && node.flag("visible");
   const std::string does = node.text("does");

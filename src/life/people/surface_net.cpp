@@ -135,12 +135,11 @@ float smooth_noise(glm::vec3 p) {
 }
 
 glm::vec3 normal_of(const Field& field, glm::vec3 p, float step_m) {
-  glm::vec3 slope;
-  for (int i = 0; i < 3; ++i) {
-    glm::vec3 step(0.0f);
-    step[i] = step_m;
-    slope[i] = field(p + step) - field(p - step);
-  }
+  // Four corners of a tetrahedron: two samples less than central differences.
+  glm::vec3 slope(0.0f);
+  for (const glm::vec3 corner :
+       {glm::vec3(1, -1, -1), glm::vec3(-1, -1, 1), glm::vec3(-1, 1, -1), glm::vec3(1, 1, 1)})
+    slope += corner * field(p + 0.577f * step_m * corner);
   const float length = glm::length(slope);
   return length > 0.0f ? slope / length : glm::vec3(0, 0, 1);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/content_hash.h"
 #include "base/parallel.h"
 #include "graphics/gl/sampled_textures.h"
 #include "reflections/methods/bindings.h"
@@ -46,6 +47,17 @@ void MirroredBodies::follow_objects(const scene::Scene& scene) {
   if (scene.objects.size() > field_of_object_.size()) add_objects(scene);
 }
 
+/// The levels of detail of a skinned body share the field of the first one: their bones rest in the same
+/// places.
+MirroredBodies::Look MirroredBodies::look_of(const scene::Object& object) {
+  if (object.deformed_meshes.empty()) return {object.model.get(), object.paint.get()};
+  ContentHash bones;
+  bones.add_text(object.model->name);
+  for (const scene::ModelNode& node : object.model->nodes)
+    bones.add(node.translation), bones.add(node.parent);
+  return {first_of_bones_.try_emplace(bones.value(), object.model.get()).first->second, nullptr};
+}
+
 void MirroredBodies::add_objects(const scene::Scene& scene) {
   std::vector<const scene::Object*> looks;  // new ones
   const std::size_t known = boxes_.size();
@@ -53,7 +65,7 @@ void MirroredBodies::add_objects(const scene::Scene& scene) {
     const scene::Object& object = scene.objects[o];
     field_of_object_.push_back(-1);
     if (!object.is_dynamic || !object.model) continue;
-    const std::pair<const scene::Model*, const void*> look{object.model.get(), object.paint.get()};
+    const Look look = look_of(object);
     if (!field_of_look_.contains(look) && known + looks.size() < max_fields) {
       field_of_look_.emplace(look, int(known + looks.size()));
       looks.push_back(&object);

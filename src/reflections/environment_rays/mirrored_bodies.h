@@ -43,13 +43,17 @@ class MirroredBodies {
 
  private:
   using Body = mirrored_bodies_shared::MirroredBody;
+  using Look = std::pair<const scene::Model*, const void*>;  ///< model and paint
+  Look look_of(const scene::Object& object);
   void add_objects(const scene::Scene& scene);
   void find_neighbours(const std::vector<methods::VisibleReflector>& reflectors);
 
-  std::map<std::pair<const scene::Model*, const void*>, int> field_of_look_;  ///< by model and paint
-  std::vector<int> field_of_object_;                                          ///< below 0: none
-  std::vector<Bounds> boxes_;        ///< of each field, in its model's frame
-  std::vector<int> body_of_object_;  ///< below 0: none now
+  std::map<std::uint64_t, const scene::Model*>
+      first_of_bones_;  ///< of skinned bodies, by the hash of their bones
+  std::map<Look, int> field_of_look_;
+  std::vector<int> field_of_object_;  ///< below 0: none
+  std::vector<Bounds> boxes_;         ///< of each field, in its model's frame
+  std::vector<int> body_of_object_;   ///< below 0: none now
   std::vector<std::pair<float, int>> by_distance_;
   std::vector<int> objects_;                                         ///< of each body
   std::vector<const methods::VisibleReflector*> reflector_of_body_;  ///< null: it is not seen
