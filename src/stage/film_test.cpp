@@ -71,6 +71,21 @@ TEST_F(FilmTest, HasTheFramesTheSizeAndTheLightThatItWasGiven) {
   EXPECT_EQ(std::distance(fs::directory_iterator(file.parent_path()), {}), 1) << "nothing beside the film";
 }
 
+TEST_F(FilmTest, HasTheSoundThatItWasGiven) {
+  const fs::path file = folder_.path() / "heard.mp4";
+  Result<Film> film = Film::open(file, film_width, film_height, 12);
+  ASSERT_TRUE(film) << to_string(film.errors());
+  for (int i = 0; i < 12; ++i) ASSERT_TRUE(film->add(grey_frame(200)));
+  // A second of silence: one channel of 16 bits at 8 kHz.
+  std::string wave("RIFF\xa4\x3e\0\0WAVEfmt \x10\0\0\0\1\0\1\0\x40\x1f\0\0\x80\x3e\0\0\2\0\x10\0data\x80\x3e\0\0", 44);
+  wave.append(16'000, '\0');
+  const Status status = film->finish(wave);
+  ASSERT_TRUE(status) << to_string(status.errors());
+  EXPECT_EQ(output_of("ffprobe -v error -show_entries stream=codec_name -of csv=p=0 file:" + file.string()),
+            "h264\naac");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1) << "nothing beside the film";
+}
+
 TEST_F(FilmTest, TakesANameWithAColonInTheCurrentFolder) {
   const fs::path before = fs::current_path();
   fs::current_path(folder_.path());
