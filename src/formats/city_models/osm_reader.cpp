@@ -5,6 +5,8 @@
 #include <functional>
 #include <initializer_list>
 #include <map>
+#include <memory>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -118,7 +120,17 @@ Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file
   const OsmRelief relief(osm, place, !ground);
   const OsmTrenches trenches(osm, relief);
   std::vector<Road> roads = osm_roads(osm, place, relief, ground, origin, file, city);
+  std::set<std::string> bridges;
+  for (const OsmWay& way : osm.ways)
+    if (is_bridge(way.tags)) bridges.insert(fmt::format("way {}", way.id));
+  const std::shared_ptr<const Earthworks> ramps =
+      ground ? nullptr
+             : works_for_ramps(roads, [&](const Road& road) { return bridges.contains(road.name); });
   const GroundOnMap shaped = ground_shaped_for(roads, ground, origin);
+  const GroundOnMap planted =
+      ramps ? [ramps, origin](
+                  glm::dvec2 spot) { return double(ramps->at(glm::vec2(spot - glm::dvec2(origin)), 0.0f)); }
+            : shaped;
   const std::size_t buildings = add_osm_buildings(osm, on_map, shaped, city);
   if (!ground) {
     add_ground(osm, origin, trenches, city);
@@ -126,13 +138,15 @@ Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file
     add_osm_tunnels(osm, relief, city);
     add_osm_crossings(osm, place, roads, origin, city);
   }
-  add_osm_plants_and_barriers(osm, place, shaped, trenches, city);
-  add_osm_woods(osm, place, shaped, trenches, city);
+  const RaisedWays raised(osm, relief);
+  add_osm_plants_and_barriers(osm, place, planted, trenches, raised, city);
+  add_osm_woods(osm, place, planted, trenches, raised, city);
   add_osm_rails(osm, relief, ground, shaped, city);
   add_osm_bridges(osm, relief, ground, half_carriageway_m, city);
   if (city.polygon_count() == 0) return nothing_to_show(osm, where, bool(ground), warnings);
   Result<Model> model = city.finish(buildings);
   if (!model) return model;
+  if (ramps) raise_ground(*model, *ramps);
   model->roads = std::move(roads);
   model->map = osm.map;
   model->true_north_deg = osm.true_north_deg;

@@ -335,6 +335,69 @@ TEST(Osm, BridgesLeaveClearanceAndRampsLeadUpToThem) {
     }
 }
 
+/// The same with a junction on its ramp, from which a service road leads east, and another beside the ramp,
+/// 14 m from its middle.
+std::string bridge_with_service_roads() {
+  return R"(<node id="21" lat="52.1593" lon="4.4902"/><node id="22" lat="52.1597" lon="4.4902"/>
+<node id="23" lat="52.1607" lon="4.4902"/><node id="24" lat="52.15995" lon="4.4902"/>
+<node id="25" lat="52.15995" lon="4.4912"/><node id="26" lat="52.16" lon="4.4904"/>
+<node id="27" lat="52.1602" lon="4.4904"/>)" +
+         way(100, "11 12 13", {{"highway", "primary"}}) +
+         way(101, "21 22", {{"highway", "primary"}, {"bridge", "yes"}, {"layer", "1"}}) +
+         way(102, "22 24 23", {{"highway", "primary"}}) + way(103, "24 25", {{"highway", "service"}}) +
+         way(104, "26 27", {{"highway", "service"}});
+}
+
+TEST(Osm, LesserWaysFallFasterFromRamps) {
+  const Read town = read(osm(bridge_with_service_roads()));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  const std::vector<glm::vec3>& service = town.model->roads.at(3).path;
+  ASSERT_GE(service.size(), 3u);
+  EXPECT_NEAR(service[0].z, 5.4f - 0.09f * 27.8f, 0.05f) << "9 % to the junction, 27.8 m from the bridge";
+  EXPECT_NEAR(glm::distance(glm::vec2(service[0]), glm::vec2(service[1])), service[0].z / 0.15f, 0.5f)
+      << "15 % from there";
+  EXPECT_EQ(service[1].z, 0.0f);
+}
+
+TEST(Osm, TheGroundRisesToRampsAndCoversNoWayBesideThem) {
+  const Read town = read(osm(bridge_with_service_roads()));
+  ASSERT_TRUE(town.model) << to_string(town.model.errors());
+  const std::vector<glm::vec3>&ramp = town.model->roads.at(2).path, &beside = town.model->roads.at(4).path;
+  const glm::vec2 low(beside.front()), high(beside.back());
+  float highest_m = 0.0f, highest_beside_m = 0.0f, below_bridge_m = 0.0f;
+  for (const Part& part : town.model->parts)
+    for (std::size_t i = 0; part.object == "LandUse" && i < part.mesh.positions.size(); ++i) {
+      const glm::vec3 p = part.mesh.positions[i];
+      highest_m = std::max(highest_m, p.z);
+      if (p.y > low.y && p.y < high.y && std::abs(p.x - low.x) < 2.5f)
+        highest_beside_m = std::max(highest_beside_m, p.z);
+      if (std::abs(p.y - town.model->roads.at(0).path[1].y) < 3.0f)
+        below_bridge_m = std::max(below_bridge_m, p.z);
+    }
+  EXPECT_NEAR(highest_m, ramp.front().z, 0.2f);
+  EXPECT_LT(highest_beside_m, 0.5f);
+  EXPECT_LT(below_bridge_m, 0.3f);
+}
+
+TEST(Osm, NoTreeGrowsThroughABridge) {
+  const auto trees_of = [](const std::string& tags) {
+    const std::string map =
+        osm(street_and_bridge({{"highway", "primary"}, {"bridge", tags}, {"layer", "1"}}) +
+            R"(<node id="31" lat="52.1595" lon="4.49025"><tag k="natural" v="tree"/></node>
+<node id="32" lat="52.1595" lon="4.4910"><tag k="natural" v="tree"/></node>)");
+    const Read town = read(map);
+    EXPECT_TRUE(town.model) << to_string(town.model.errors());
+    EXPECT_EQ(town.warnings.find("1 trees would grow through bridges") != std::string::npos, tags == "yes")
+        << town.warnings;
+    std::size_t triangles = 0;
+    for (const Part& part : town.model->parts)
+      if (part.object.starts_with("SolitaryVegetationObject")) triangles += part.mesh.triangle_count();
+    return triangles / 12;
+  };
+  EXPECT_EQ(trees_of("yes"), 1u);
+  EXPECT_EQ(trees_of("no"), 2u);
+}
+
 TEST(Osm, AStreetThatLeadsHighIntoABuildingOrEndsOnAPierStaysAsItIs) {
   const std::string tags_of_house = way(104, "21 1 2 21", {{"building", "yes"}, {"height", "9"}});
   const Read garage = read(

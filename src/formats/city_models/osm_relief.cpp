@@ -17,12 +17,15 @@ using glm::dvec2;
 
 constexpr double bridge_clearance_m = 4.5, deck_depth_m = 0.9;  // below a bridge, and of its deck
 constexpr double low_bridge_m = 1.0;                            // over water
-constexpr double road_slope = 0.06, rail_slope = 0.03;
+constexpr double road_slope = 0.06, street_slope = 0.08, path_slope = 0.12, rail_slope = 0.03;
+constexpr double steepest_ramp = 0.15;
 constexpr int max_layer = 4;
-constexpr double max_steepness = 2.5;   // of ramps to portals, of the usual slope
-constexpr double loose_m = 2.0;         // above the ground: low bridges that end are piers
-constexpr double lowest_ramp_m = 0.05;  // what rises less is level
-constexpr int max_ramp_nodes = 10'000;  // that are walked from a portal to a junction
+constexpr double max_steepness = 2.5;         // of ramps to portals, of the usual slope
+constexpr double max_bridge_steepness = 1.5;  // the same of ramps to bridges
+constexpr double min_raised_m = 1.0;          // above the ground: through what is lower nothing grows
+constexpr double loose_m = 2.0;               // above the ground: low bridges that end are piers
+constexpr double lowest_ramp_m = 0.05;        // what rises less is level
+constexpr int max_ramp_nodes = 10'000;        // that are walked from a portal or bridge to a junction
 
 bool is_road(const OsmTags& tags) { return says_yes(tags, "highway") && tag(tags, "area") != "yes"; }
 
@@ -37,7 +40,15 @@ bool cross(dvec2 a, dvec2 b, dvec2 c, dvec2 d) {
   return twice_area(a, b, c) * twice_area(a, b, d) < 0.0 && twice_area(c, d, a) * twice_area(c, d, b) < 0.0;
 }
 
-double slope_of(const OsmTags& tags) { return is_rail(tags) ? rail_slope : road_slope; }
+/// A short ramp of a lesser way lifts what lies around it less than a long one.
+double slope_of(const OsmTags& tags) {
+  if (is_rail(tags)) return rail_slope;
+  const std::string& kind = tag(tags, "highway");
+  if (kind == "residential" || kind == "living_street" || kind == "unclassified") return street_slope;
+  return is_street(tags) && kind != "service" ? road_slope : path_slope;
+}
+
+double ramp_slope(double slope, double steepness) { return std::min(steepness * slope, steepest_ramp); }
 
 }  // namespace
 
@@ -93,6 +104,8 @@ OsmRelief::OsmRelief(const OsmFile& osm, const OsmPlaces& place, bool digs) : os
       digs && std::ranges::any_of(osm.ways, [](const OsmWay& way) { return is_tunnel(way.tags); });
   if (above_.empty() && !has_tunnels) return;
   const Steps along = steps();
+  for (auto& [node, level] : above_)
+    level.steepness = steepness(along, node, level.away_m, max_bridge_steepness);
   lead_to_ground(along, above_);
   find_loose_ends();
   if (has_tunnels) dig_tunnels(along);
@@ -133,9 +146,9 @@ OsmRelief::Steps OsmRelief::steps() const {
     for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i) {
       const auto a = place_(way.nodes[i]), b = place_(way.nodes[i + 1]);
       if (!a || !b) continue;
-      const double length_m = glm::distance(*a, *b), fall_m = slope_of(way.tags) * length_m;
-      steps[way.nodes[i]].push_back({way.nodes[i + 1], length_m, fall_m});
-      steps[way.nodes[i + 1]].push_back({way.nodes[i], length_m, fall_m});
+      const double length_m = glm::distance(*a, *b), slope = slope_of(way.tags);
+      steps[way.nodes[i]].push_back({way.nodes[i + 1], length_m, slope, is_bridge(way.tags)});
+      steps[way.nodes[i + 1]].push_back({way.nodes[i], length_m, slope, is_bridge(way.tags)});
     }
   }
   return steps;
@@ -152,7 +165,7 @@ void OsmRelief::lead_to_ground(const Steps& steps, Levels& levels) {
     const auto ways = steps.find(node);
     if (away_m < here.away_m || ways == steps.end()) continue;
     for (const Step& step : ways->second) {
-      const double there_m = away_m - here.steepness * step.fall_m;
+      const double there_m = away_m - ramp_slope(step.slope, here.steepness) * step.length_m;
       if (there_m <= 0.0 || there_m <= levels[step.to].away_m) continue;
       levels[step.to] = {there_m, here.steepness};
       farthest.emplace(there_m, step.to);
@@ -160,21 +173,22 @@ void OsmRelief::lead_to_ground(const Steps& steps, Levels& levels) {
   }
 }
 
-/// So steep that the ramp ends before the next junction, where that is possible.
-double OsmRelief::steepness(const Steps& steps, OsmId portal, double depth_m) const {
+/// So steep that the ramp from the end of a bridge or tunnel reaches the ground before the next junction,
+/// where that is possible.
+double OsmRelief::steepness(const Steps& steps, OsmId end, double away_m, double limit) {
   double fall_m = 0.0;
-  OsmId before = portal, node = portal;
+  OsmId before = end, node = end;
   for (int i = 0; i < max_ramp_nodes; ++i) {
-    const auto ways = steps.find(node);
-    const std::size_t count = ways == steps.end() ? 0 : ways->second.size();
-    if (count > 2) break;
     const Step* next = nullptr;
-    for (std::size_t k = 0; k < count; ++k)
-      if (ways->second[k].to != before) next = &ways->second[k];
-    if (next == nullptr || fall_m > depth_m) return 1.0;  // the way ends, or the ramp has room
-    fall_m += next->fall_m, before = node, node = next->to;
+    int count = 0;
+    if (const auto ways = steps.find(node); ways != steps.end())
+      for (const Step& step : ways->second)
+        if (step.to != before && !(node == end && step.is_on_bridge)) next = &step, ++count;
+    if (count > 1) break;
+    if (next == nullptr || fall_m > away_m) return 1.0;  // the way ends, or the ramp has room
+    fall_m += next->slope * next->length_m, before = node, node = next->to;
   }
-  return std::clamp(depth_m / std::max(fall_m, 1e-6), 1.0, max_steepness);
+  return std::clamp(away_m / std::max(fall_m, 1e-6), 1.0, limit);
 }
 
 void OsmRelief::dig_tunnels(const Steps& steps) {
@@ -183,7 +197,7 @@ void OsmRelief::dig_tunnels(const Steps& steps) {
     const double depth_m = double(std::max(-layer_of(way.tags), 1)) * tunnel_depth_m;
     for (const OsmId node : way.nodes) below_[node].away_m = std::max(below_[node].away_m, depth_m);
   }
-  for (auto& [node, level] : below_) level.steepness = steepness(steps, node, level.away_m);
+  for (auto& [node, level] : below_) level.steepness = steepness(steps, node, level.away_m, max_steepness);
   lead_to_ground(steps, below_);
 }
 
@@ -232,7 +246,7 @@ std::vector<RaisedPoint> OsmRelief::profile(const OsmWay& way) const {
     if (const auto point = place_(node)) {
       const Level level = level_of(node);
       nodes.push_back({*point, level.away_m});
-      slopes.push_back(level.steepness * slope_of(way.tags));
+      slopes.push_back(ramp_slope(slope_of(way.tags), level.steepness));
     }
   if (is_bridge(way.tags) || is_underground(way.tags)) return with_run_outs(way, std::move(nodes));
   std::vector<RaisedPoint> points;
@@ -256,6 +270,29 @@ std::vector<RaisedPoint> OsmRelief::profile(const OsmWay& way) const {
     }
   }
   return with_run_outs(way, std::move(points));
+}
+
+RaisedWays::RaisedWays(const OsmFile& osm, const OsmRelief& relief) {
+  for (const OsmWay& way : osm.ways) {
+    const double half_m = half_carriageway_m(way);
+    if (half_m <= 0.0 || is_underground(way.tags)) continue;
+    const std::vector<RaisedPoint> points = relief.profile(way);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      if (std::max(points[i].above_m, points[i + 1].above_m) > min_raised_m)
+        decks_.add(points[i].place, points[i + 1].place, half_m + beside_carriageway_m);
+  }
+}
+
+bool RaisedWays::are_near(dvec2 point, double beside_m) const {
+  bool is_near = false;
+  decks_.each_near(point, point, [&](const OsmSegments<double>::Segment& deck) {
+    const dvec2 along = deck.b - deck.a;
+    const double share =
+        std::clamp(glm::dot(point - deck.a, along) / std::max(glm::dot(along, along), 1e-9), 0.0, 1.0);
+    is_near = glm::distance(point, deck.a + share * along) < deck.owner + beside_m;
+    return !is_near;
+  });
+  return is_near;
 }
 
 }  // namespace parvis::scene

@@ -24,6 +24,9 @@ bool is_rail(const OsmTags& tags);
 /// underground railways, which seldom see daylight, are none.
 bool is_tunnel(const OsmTags& tags);
 
+/// Width of a deck beside its carriageway: pavements.
+inline constexpr double beside_carriageway_m = 3.1;
+
 /// A point of a way: in plan, and its height above the ground, negative below it.
 struct RaisedPoint {
   glm::dvec2 place;
@@ -36,10 +39,11 @@ void each_stretch(const std::vector<RaisedPoint>& profile, double side,
                   const std::function<void(const std::vector<RaisedPoint>&)>& use);
 
 /// Heights of roads and railways above the ground. A bridge over a road or railway leaves it 4.5 m of
-/// clearance per layer, one over anything else rises 1 m; from its ends ways fall by 6 % (railways 3 %) until
-/// they reach the ground. Tunnels lie 5.1 m per layer below it; ways fall to their portals by the same
-/// slopes, or up to 2.5 times as steeply where a junction is near. A street that ends above the ground, where
-/// the map is cut off, goes straight on down to it.
+/// clearance per layer, one over anything else rises 1 m; from its ends ways fall by 6 % (residential streets
+/// 8 %, service roads and paths 12 %, railways 3 %) until they reach the ground, up to 1.5 times as steeply
+/// where a junction is near. Tunnels lie 5.1 m per layer below it; ways fall to their portals by the same
+/// slopes, or up to 2.5 times as steeply, at most 15 %. A street that ends above the ground, where the map is
+/// cut off, goes straight on down to it.
 class OsmRelief {
  public:
   /// Height of the ceiling of a tunnel above its carriageway, and depth of the carriageway per layer.
@@ -53,10 +57,11 @@ class OsmRelief {
   std::vector<RaisedPoint> profile(const OsmWay& way) const;
 
  private:
-  /// A way from a node to the next one, and how far it rises or falls on it at the usual slope.
+  /// A way from a node to the next one, and its usual slope, rise over run.
   struct Step {
     OsmId to;
-    double length_m, fall_m;
+    double length_m, slope;
+    bool is_on_bridge;
   };
   using Steps = std::unordered_map<OsmId, std::vector<Step>>;
   /// How far a node lies above or below the ground, and how steep the ramp there is: 1 is the usual slope.
@@ -70,7 +75,7 @@ class OsmRelief {
   OpenWays open_ways() const;
   double height_of_bridge(const OsmWay& bridge, const OpenWays& ways) const;
   Steps steps() const;
-  double steepness(const Steps& steps, OsmId portal, double depth_m) const;
+  static double steepness(const Steps& steps, OsmId end, double away_m, double limit);
   static void lead_to_ground(const Steps& steps, Levels& levels);
   void dig_tunnels(const Steps& steps);
   void find_loose_ends();
@@ -81,6 +86,18 @@ class OsmRelief {
   const OsmPlaces& place_;
   Levels above_, below_;
   std::unordered_set<OsmId> loose_ends_;  ///< nodes high above the ground at which a street ends
+};
+
+/// The plan of bridges and ramps, beside and below which no tree has room.
+class RaisedWays {
+ public:
+  /// The decks of all ways that lie more than a metre above the ground.
+  RaisedWays(const OsmFile& osm, const OsmRelief& relief);
+  /// True where a deck, with the pavements on it, is nearer than `beside_m` to a point in plan.
+  bool are_near(glm::dvec2 point, double beside_m) const;
+
+ private:
+  OsmSegments<double> decks_;  ///< with half the width of each
 };
 
 }  // namespace parvis::scene

@@ -21,10 +21,11 @@ constexpr double gauge_m = 1.435, rail_width_m = 0.07, rail_height_m = 0.15, bal
 constexpr double ballast_lift_m = 0.03;
 constexpr double groove_lift_m = 0.085;  // of a tram's rails: over the asphalt that paving lays
 constexpr double deck_m = 0.9, bridge_parapet_m = 1.0, parapet_width_m = 0.25;
-constexpr double beside_m = 3.1;  // of a deck beside the carriageway: pavements
 constexpr double beside_track_m = 0.6;
 constexpr double below_road_m = 0.02;   // carriageways lie on the deck
 constexpr double embankment_run = 1.5;  // per metre of height
+constexpr double wall_run = 0.75;       // per metre of height: what is steeper is a wall, no bank
+constexpr double covered_m = 0.3;       // below a bank: neighbouring ways that lie so low would be covered
 
 constexpr double thinnest_m = 0.1;  // of what tags give a height or width
 
@@ -53,9 +54,34 @@ std::string species_of(const OsmTags& tags) {
   return "";
 }
 
-void add_tree(dvec3 foot, double height_m, const OsmTags& tags, CityAssembly& city) {
-  add_osm_tree(foot, height_m, species_of(tags), has_needles(tags), city);
-}
+/// Trees that stand by themselves and in rows.
+class Trees {
+ public:
+  Trees(const GroundOnMap& ground, const OsmTrenches& trenches, const RaisedWays& raised, CityAssembly& city)
+      : ground_(ground), trenches_(trenches), raised_(raised), city_(city) {}
+
+  /// Adds one, unless the ground is open below it or a bridge leads through its crown.
+  void add(dvec2 foot, double usual_m, const OsmTags& tags) {
+    const double height_m = metres_within(tags, "height", thinnest_m, 60.0, usual_m);
+    if (trenches_.holds(foot)) return;
+    if (raised_.are_near(foot, crown_share * height_m)) return static_cast<void>(++below_bridges_);
+    add_osm_tree({foot, ground_ ? ground_(foot) : 0.0}, height_m, species_of(tags), has_needles(tags), city_);
+  }
+
+  /// Warns of those that bridges leave no room.
+  void report() const {
+    if (below_bridges_ > 0)
+      city_.warn(
+          fmt::format("{} trees would grow through bridges or ramps; they are left out", below_bridges_));
+  }
+
+ private:
+  const GroundOnMap& ground_;
+  const OsmTrenches& trenches_;
+  const RaisedWays& raised_;
+  CityAssembly& city_;
+  int below_bridges_ = 0;
+};
 
 /// Points of roads, by cells of the plan.
 class RoadPoints {
@@ -143,8 +169,7 @@ double step_in_rows(const OsmFile& osm, const OsmPlaces& place, CityAssembly& ci
   return step_m;
 }
 
-void add_row(const OsmWay& row, double step_m, const OsmPlaces& place, const GroundOnMap& ground,
-             CityAssembly& city) {
+void add_row(const OsmWay& row, double step_m, const OsmPlaces& place, Trees& trees) {
   double left_m = 0.0;  // until the next tree
   int count = 0;
   for (std::size_t i = 0; i + 1 < row.nodes.size(); ++i) {
@@ -153,33 +178,89 @@ void add_row(const OsmWay& row, double step_m, const OsmPlaces& place, const Gro
     const double length_m = glm::distance(*a, *b);
     double at_m = left_m;
     while (at_m <= length_m) {
-      const dvec2 foot = glm::mix(*a, *b, length_m > 0.0 ? at_m / length_m : 0.0);
-      add_tree({foot, ground ? ground(foot) : 0.0},
-               metres_within(row.tags, "height", thinnest_m, 60.0, usual_tree_m(row.id + ++count)), row.tags,
-               city);
+      trees.add(glm::mix(*a, *b, length_m > 0.0 ? at_m / length_m : 0.0), usual_tree_m(row.id + ++count),
+                row.tags);
       at_m += step_m;
     }
     left_m = at_m - length_m;
   }
 }
 
-/// A slope from the edge of a raised way down to the ground, on one side.
+/// A strip of ground along a way: half its width, and heights above the ground at both ends of the segment.
+struct Strip {
+  double half_m, from_m, to_m;
+};
+using Strips = OsmSegments<Strip>;
+
+/// How far a bank may reach from an edge, `above_m` over the ground, in a direction of unit length: to its
+/// foot, or to the next way that it would cover.
+double room_for_bank(const Strips& strips, dvec2 edge, dvec2 out, double above_m) {
+  double run_m = embankment_run * above_m;
+  strips.each_near(edge, edge + out * run_m, [&](const Strips::Segment& strip) {
+    const double length_m = glm::distance(strip.a, strip.b);
+    if (length_m <= 0.0) return true;
+    const dvec2 along = (strip.b - strip.a) / length_m, across(-along.y, along.x);
+    double enters_m = 0.0, leaves_m = run_m;  // where the ray runs over the strip
+    const auto clip = [&](double at, double per_m, double low, double high) {
+      if (std::abs(per_m) < 1e-9) {
+        if (at < low || at > high) leaves_m = -1.0;
+        return;
+      }
+      const double a = (low - at) / per_m, b = (high - at) / per_m;
+      enters_m = std::max(enters_m, std::min(a, b)), leaves_m = std::min(leaves_m, std::max(a, b));
+    };
+    const dvec2 from = edge - strip.a;
+    clip(glm::dot(from, across), glm::dot(out, across), -strip.owner.half_m, strip.owner.half_m);
+    clip(glm::dot(from, along), glm::dot(out, along), 0.0, length_m);
+    if (enters_m > leaves_m) return true;
+    const double share = (glm::dot(from, along) + enters_m * glm::dot(out, along)) / length_m;
+    const double strip_m = glm::mix(strip.owner.from_m, strip.owner.to_m, share);
+    if (strip_m < above_m - enters_m / embankment_run - covered_m) run_m = std::min(run_m, enters_m);
+    return true;
+  });
+  return run_m;
+}
+
+/// A bank from the edge of a raised way down to the ground, on one side; a wall where a way lies beside it.
 void add_slope(const std::vector<dvec3>& edge, const std::vector<dvec3>& other,
-               const std::vector<double>& above_m, const LineLook& look, CityAssembly& city) {
+               const std::vector<double>& above_m, const Strips& strips, const LineLook& wall,
+               const LineLook& bank, CityAssembly& city) {
   std::vector<dvec3> feet;
+  std::vector<bool> is_wall;
   for (std::size_t i = 0; i < edge.size(); ++i) {
     const dvec2 out = glm::normalize(dvec2(edge[i] - other[i]));
-    feet.emplace_back(dvec2(edge[i]) + out * (embankment_run * above_m[i]), edge[i].z - above_m[i]);
+    const double run_m = room_for_bank(strips, dvec2(edge[i]), out, above_m[i]);
+    feet.emplace_back(dvec2(edge[i]) + out * run_m, edge[i].z - above_m[i]);
+    is_wall.push_back(run_m < wall_run * above_m[i]);
   }
   for (std::size_t i = 0; i + 1 < edge.size(); ++i) {
+    const LineLook& look = is_wall[i] || is_wall[i + 1] ? wall : bank;
     add_polygon({edge[i], edge[i + 1], feet[i + 1]}, look, city);
     add_polygon({edge[i], feet[i + 1], feet[i]}, look, city);
   }
 }
 
+/// A ramp with points between its own: neighbours begin and end anywhere.
+std::vector<RaisedPoint> divided(const std::vector<RaisedPoint>& points, double step_m) {
+  std::vector<RaisedPoint> all;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    all.push_back(points[i]);
+    if (i + 1 == points.size()) break;
+    const int steps = int(std::ceil(glm::distance(points[i].place, points[i + 1].place) / step_m));
+    for (int k = 1; k < steps; ++k) {
+      const double share = double(k) / double(steps);
+      all.push_back({glm::mix(points[i].place, points[i + 1].place, share),
+                     glm::mix(points[i].above_m, points[i + 1].above_m, share)});
+    }
+  }
+  return all;
+}
+
 /// The part of a ramp that is raised, as a dam with sloping sides and closed ends.
-void add_embankment(const std::vector<RaisedPoint>& points, const GroundOnMap& ground, double half_m,
-                    const LineLook& top, const LineLook& slope, CityAssembly& city) {
+void add_embankment(const std::vector<RaisedPoint>& ramp, const GroundOnMap& ground, double half_m,
+                    const Strips& strips, const LineLook& top, const LineLook& slope, CityAssembly& city) {
+  constexpr double step_m = 6.0;
+  const std::vector<RaisedPoint> points = divided(ramp, step_m);
   const std::vector<dvec3> line = on_ground(points, ground);
   const Sides sides = sides_of(line, -half_m, half_m, -below_road_m);
   if (sides.left.size() != points.size()) return;  // points that coincide: no length
@@ -187,24 +268,26 @@ void add_embankment(const std::vector<RaisedPoint>& points, const GroundOnMap& g
   above_m.reserve(points.size());
   for (const RaisedPoint& point : points) above_m.push_back(point.above_m);
   add_band(sides, top, city);
-  add_slope(sides.right, sides.left, above_m, slope, city);
-  add_slope(sides.left, sides.right, above_m, slope, city);
+  add_slope(sides.right, sides.left, above_m, strips, top, slope, city);
+  add_slope(sides.left, sides.right, above_m, strips, top, slope, city);
 }
 
 /// A wall across the way from its deck down to the ground, as wide as the embankment behind it.
-void add_abutment(dvec3 at, dvec2 along, double half_m, double above_m, const LineLook& stone,
-                  CityAssembly& city) {
+void add_abutment(dvec3 at, dvec2 along, double half_m, double above_m, const Strips& strips,
+                  const LineLook& stone, CityAssembly& city) {
   const dvec2 aside(along.y, -along.x);
-  const double foot_m = half_m + embankment_run * above_m;
+  const auto foot_m = [&](dvec2 out) {
+    return half_m + room_for_bank(strips, dvec2(at) + out * half_m, out, above_m);
+  };
   const double top = at.z - below_road_m;
-  add_polygon(
-      {dvec3(dvec2(at) - aside * foot_m, at.z - above_m), dvec3(dvec2(at) + aside * foot_m, at.z - above_m),
-       dvec3(dvec2(at) + aside * half_m, top), dvec3(dvec2(at) - aside * half_m, top)},
-      stone, city);
+  add_polygon({dvec3(dvec2(at) - aside * foot_m(-aside), at.z - above_m),
+               dvec3(dvec2(at) + aside * foot_m(aside), at.z - above_m),
+               dvec3(dvec2(at) + aside * half_m, top), dvec3(dvec2(at) - aside * half_m, top)},
+              stone, city);
 }
 
 void add_deck(const std::vector<RaisedPoint>& points, const GroundOnMap& ground, double half_m,
-              bool has_parapets, const LineLook& deck, CityAssembly& city) {
+              bool has_parapets, const Strips& strips, const LineLook& deck, CityAssembly& city) {
   const std::vector<dvec3> line = on_ground(points, ground);
   if (line.size() < 2) return;
   add_block(sides_of(line, -half_m, half_m, -below_road_m), deck_m, deck, city);
@@ -216,9 +299,10 @@ void add_deck(const std::vector<RaisedPoint>& points, const GroundOnMap& ground,
               bridge_parapet_m, deck, city);
   }
   const std::size_t last = line.size() - 1;
-  add_abutment(line[0], glm::normalize(dvec2(line[1] - line[0])), half_m, points[0].above_m, deck, city);
+  add_abutment(line[0], glm::normalize(dvec2(line[1] - line[0])), half_m, points[0].above_m, strips, deck,
+               city);
   add_abutment(line[last], glm::normalize(dvec2(line[last] - line[last - 1])), half_m, points[last].above_m,
-               deck, city);
+               strips, deck, city);
 }
 
 /// The width of a way's deck to either side of its middle line.
@@ -228,7 +312,8 @@ struct DeckWidth {
 };
 
 DeckWidth deck_width_of(const OsmWay& way, const std::function<double(const OsmWay&)>& half_carriageway_m) {
-  if (const double half_m = half_carriageway_m(way); half_m > 0.0) return {half_m + beside_m, true};
+  if (const double half_m = half_carriageway_m(way); half_m > 0.0)
+    return {half_m + beside_carriageway_m, true};
   if (is_rail(way.tags)) return {ballast_half_m + beside_track_m, false};
   const double half_m = half_path_m(way.tags);
   return {half_m > 0.0 ? half_m + parapet_width_m : 0.0, false};
@@ -257,7 +342,7 @@ class StreetDecks {
           square > 0.0 ? std::clamp(glm::dot(middle - segment.a, run) / square, 0.0, 1.0) : 0.0;
       const double apart_m = glm::distance(middle, segment.a + share * run);
       const bool is_parallel = std::abs(glm::dot(run, along)) > 0.8 * std::sqrt(square) * length_m;
-      is_carried = is_parallel && apart_m < segment.owner + half_m + beside_m;
+      is_carried = is_parallel && apart_m < segment.owner + half_m + beside_carriageway_m;
       return !is_carried;
     });
     return is_carried;
@@ -290,13 +375,11 @@ void add_osm_tree(dvec3 foot, double height_m, const std::string& kind, bool has
 }
 
 void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
-                                 const OsmTrenches& trenches, CityAssembly& city) {
+                                 const OsmTrenches& trenches, const RaisedWays& raised, CityAssembly& city) {
+  Trees trees(ground, trenches, raised, city);
   for (const OsmNode& node : osm.tagged_nodes)
     if (tag(node.tags, "natural") == "tree")
-      if (const auto foot = place(node.id); foot && !trenches.holds(*foot))
-        add_tree({*foot, ground ? ground(*foot) : 0.0},
-                 metres_within(node.tags, "height", thinnest_m, 60.0, usual_tree_m(node.id)), node.tags,
-                 city);
+      if (const auto foot = place(node.id)) trees.add(*foot, usual_tree_m(node.id), node.tags);
   struct Barrier {
     const char* kind;
     double height_m, width_m;
@@ -320,7 +403,8 @@ void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, con
   }
   const double step_m = step_in_rows(osm, place, city);
   for (const OsmWay& way : osm.ways)
-    if (is_row(way)) add_row(way, step_m, place, ground, city);
+    if (is_row(way)) add_row(way, step_m, place, trees);
+  trees.report();
 }
 
 void add_osm_rails(const OsmFile& osm, const OsmRelief& relief, const GroundOnMap& ground,
@@ -354,11 +438,18 @@ void add_osm_rails(const OsmFile& osm, const OsmRelief& relief, const GroundOnMa
 void add_osm_bridges(const OsmFile& osm, const OsmRelief& relief, const GroundOnMap& ground,
                      const std::function<double(const OsmWay&)>& half_width_m, CityAssembly& city) {
   const LineLook deck{{"Bridge", "Bridge", ""}}, top{{"Bridge", "Bridge", ""}};
-  const LineLook slope{{"embankment", "PlantCover", ""}};
+  const LineLook slope{{"embankment", "PlantCover", "embankment"}};
   StreetDecks streets;
-  for (const OsmWay& way : osm.ways)
-    if (const DeckWidth width = deck_width_of(way, half_width_m); width.is_of_street && is_bridge(way.tags))
-      streets.add(relief.profile(way), width.half_m);
+  Strips strips;
+  for (const OsmWay& way : osm.ways) {
+    const DeckWidth width = deck_width_of(way, half_width_m);
+    if (width.half_m <= 0.0 || is_underground(way.tags)) continue;
+    const std::vector<RaisedPoint> points = relief.profile(way);
+    if (width.is_of_street && is_bridge(way.tags)) streets.add(points, width.half_m);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      strips.add(points[i].place, points[i + 1].place,
+                 {width.half_m, points[i].above_m, points[i + 1].above_m});
+  }
   for (const OsmWay& way : osm.ways) {
     const DeckWidth width = deck_width_of(way, half_width_m);
     if (width.half_m <= 0.0 || is_underground(way.tags)) continue;
@@ -366,10 +457,10 @@ void add_osm_bridges(const OsmFile& osm, const OsmRelief& relief, const GroundOn
     const std::vector<RaisedPoint> points = relief.profile(way);
     if (is_bridge(way.tags)) {
       const bool is_carried = !width.is_of_street && streets.carry(points, width.half_m);
-      if (!is_tram || !is_carried) add_deck(points, ground, width.half_m, !is_carried, deck, city);
-    } else if (!is_tram) {  // trams climb in the street
+      if (!is_tram || !is_carried) add_deck(points, ground, width.half_m, !is_carried, strips, deck, city);
+    } else if (!is_tram && (ground || !width.is_of_street)) {  // trams climb in the street, streets on banks
       each_stretch(points, 1.0, [&](const std::vector<RaisedPoint>& raised) {
-        add_embankment(raised, ground, width.half_m, top, slope, city);
+        add_embankment(raised, ground, width.half_m, strips, top, slope, city);
       });
     }
   }

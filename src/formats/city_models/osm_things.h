@@ -13,12 +13,15 @@ void add_osm_tree(glm::dvec3 foot, double height_m, const std::string& kind, boo
 
 /// Limit of the trees along rows. Where there would be more they stand farther apart, with a warning.
 inline constexpr std::size_t max_row_trees = 20'000;
+/// Radius of a crown, of the tree's height, which bridges keep off.
+inline constexpr double crown_share = 0.35;
 
 /// Adds trees (nodes, and every 8 m along rows) as spindles of a few triangles called
 /// SolitaryVegetationObject, which the node `greenery` replaces by trees; hedges, fences and walls.
-/// No tree stands in a trench.
+/// No tree stands in a trench, nor so that its crown reaches through a bridge: these are counted in a
+/// warning.
 void add_osm_plants_and_barriers(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
-                                 const OsmTrenches& trenches, CityAssembly& city);
+                                 const OsmTrenches& trenches, const RaisedWays& raised, CityAssembly& city);
 
 /// Adds railways on ballast and tram tracks in the street: on the ground as it is `shaped` for streets, or on
 /// bridges and ramps, which stand over the bare `ground`. Of those below ground tunnels in level ground are
@@ -27,8 +30,9 @@ void add_osm_rails(const OsmFile& osm, const OsmRelief& relief, const GroundOnMa
                    const GroundOnMap& shaped, CityAssembly& city);
 
 /// Adds decks with parapets below bridges of streets, railways and paths, abutments at their ends, and
-/// embankments below ramps. Trams on a bridge of a street have none of their own, and paths beside one no
-/// parapets. `half_width_m` gives half the width of a way's carriageway, 0 where it has none.
+/// embankments below ramps of railways and paths, on a terrain of streets, too. Trams on a bridge of a street
+/// have none of their own, and paths beside one no parapets. `half_width_m` gives half the width of a way's
+/// carriageway, 0 where it has none.
 void add_osm_bridges(const OsmFile& osm, const OsmRelief& relief, const GroundOnMap& ground,
                      const std::function<double(const OsmWay&)>& half_width_m, CityAssembly& city);
 

@@ -169,7 +169,7 @@ void keep_free(const OsmFile& osm, const OsmPlaces& place, CityAssembly& city, W
 }  // namespace
 
 void add_osm_woods(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
-                   const OsmTrenches& trenches, CityAssembly& city) {
+                   const OsmTrenches& trenches, const RaisedWays& raised, CityAssembly& city) {
   const std::vector<OsmArea> woods = OsmAreas(osm, place, city).find(is_wood, "");
   if (woods.empty()) return;
   const double room = room_in(woods, usual_step_m), step_m = step_in(woods, room);
@@ -182,11 +182,12 @@ void add_osm_woods(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap
   for (const OsmArea& wood : woods) trees.add(wood);
   keep_free(osm, place, city, trees);
   trees.each([&](dvec2 foot, const OsmTags& wood, glm::ivec2 cell) {
-    if (trenches.holds(foot)) return;
+    const double height_m = 9.0 + 7.0 * chance(cell, 4);
+    if (trenches.holds(foot) || raised.are_near(foot, crown_share * height_m)) return;
     const std::string& leaves = tag(wood, "leaf_type");
     const bool has_needles = leaves == "needleleaved" || (leaves == "mixed" && chance(cell, 3) < 0.5);
-    add_osm_tree({foot, ground ? ground(foot) : 0.0}, 9.0 + 7.0 * chance(cell, 4),
-                 has_needles ? "wood needleleaved" : "wood", has_needles, city);
+    add_osm_tree({foot, ground ? ground(foot) : 0.0}, height_m, has_needles ? "wood needleleaved" : "wood",
+                 has_needles, city);
   });
 }
 

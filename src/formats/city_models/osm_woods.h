@@ -11,9 +11,10 @@ inline constexpr std::size_t max_wood_trees = 10'000;
 
 /// Adds a tree about every 7 m in woods and forests (natural=wood, landuse=forest), as spindles called
 /// "SolitaryVegetationObject wood" and, where leaf_type says so, "needleleaved"; in mixed ones every other
-/// tree has needles. Ways, railways, buildings, waters, pitches, car parks and trenches stay free. Where
-/// there would be more than max_wood_trees they stand farther apart, with a warning.
+/// tree has needles. Ways, railways, buildings, waters, pitches, car parks and trenches stay free, and what
+/// lies below bridges. Where there would be more than max_wood_trees they stand farther apart, with a
+/// warning.
 void add_osm_woods(const OsmFile& osm, const OsmPlaces& place, const GroundOnMap& ground,
-                   const OsmTrenches& trenches, CityAssembly& city);
+                   const OsmTrenches& trenches, const RaisedWays& raised, CityAssembly& city);
 
 }  // namespace parvis::scene

@@ -18,9 +18,11 @@ namespace {
 
 constexpr float exhibit_m = 30.0f;      // what is smaller is a thing to look at: a car, a house
 constexpr float alone_m = 70.0f;        // a town model no larger is one house
-constexpr double dense_share = 0.12;    // of the ground, which is built over
+constexpr float house_m = 2.6f;         // an exhibit so high and so wide is a house, no car or bench
+constexpr double dense_share = 0.25;    // of the place, which is built over
 constexpr float view_margin_m = 60.0f;  // of ground around the place, for choosing views
 constexpr float steep = 0.7f;           // cosine of 45 degrees: green that rises so was measured from the air
+constexpr double min_spikes = 0.05;     // of such green, which stands upright
 constexpr float wall_cos = 0.3f;        // of 73 degrees: what is steeper is a wall
 constexpr float furnished_m = 6000.0f;  // of streets about the camera; more would make pictures slow
 constexpr int max_scripts = 1000;       // of one name in a folder
@@ -80,24 +82,27 @@ double area_of(const Model& model, const std::string& name) {
   return area;
 }
 
-/// True if the ground of this name lies between houses as in a town, not around them as in a village.
-bool is_dense(const Model& model, const std::string& ground) {
-  return area_of(model, "RoofSurface") > dense_share * area_of(model, ground);
+/// True if houses stand close, as in a town, not in gardens as in a village.
+bool is_dense(const Model& model) {
+  const glm::vec3 size = scene::bounds(model).size();
+  return area_of(model, "RoofSurface") > dense_share * double(size.x) * double(size.y);
 }
 
-/// True if a triangle of this name is steeper than the angle of this cosine.
-bool has_steeper(const Model& model, const std::string& name, float cosine) {
+/// The fraction of the surface of this name, dams left out, that is steeper than the angle of this cosine.
+double steeper_fraction(const Model& model, const std::string& name, float cosine) {
+  double steep_m2 = 0.0, all_m2 = 0.0;
   for (const Part& part : model.parts) {
-    if (material_of(model, part).name != name) continue;
+    if (material_of(model, part).name != name || part.object.ends_with(" embankment")) continue;
     const std::vector<std::uint32_t>& indices = part.mesh.indices;
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
       const glm::vec3 a = part.mesh.positions[indices[i]];
       const glm::vec3 area =
           glm::cross(part.mesh.positions[indices[i + 1]] - a, part.mesh.positions[indices[i + 2]] - a);
-      if (glm::length(area) > 1e-3f && std::abs(area.z) < cosine * glm::length(area)) return true;
+      all_m2 += double(glm::length(area));
+      if (std::abs(area.z) < cosine * glm::length(area)) steep_m2 += double(glm::length(area));
     }
   }
-  return false;
+  return steep_m2 / std::max(all_m2, 1e-9);
 }
 
 std::string quoted(const std::string& text) {
@@ -129,19 +134,16 @@ std::string dressing_of(const Model& model, bool is_alone) {
   const bool has_windows = is_alone && (has_surface(model, "Window") || has_surface(model, "Door"));
   if (is_bare(model, "WallSurface") && !has_windows) add("facades(target=\"WallSurface\")");
   if (is_bare(model, "RoofSurface") && !has_windows) add("roofs(target=\"RoofSurface\")");
-  if (is_bare(model, "GenericCityObject") && has_steeper(model, "GenericCityObject", wall_cos))
+  if (is_bare(model, "GenericCityObject") && steeper_fraction(model, "GenericCityObject", wall_cos) > 0.0)
     add("facades(target=\"GenericCityObject\", openings=0)");  // garden walls, quays
-  if (is_bare(model, "TINRelief"))
-    add(is_dense(model, "TINRelief") ? "ground(target=\"TINRelief\", surface=\"paving\")"
-                                     : "ground(target=\"TINRelief\", surface=\"lawn\")");
-  if (is_bare(model, "LandUse"))
-    add(is_dense(model, "LandUse") ? "ground(target=\"LandUse\", surface=\"paving\")"
-                                   : "ground(target=\"LandUse\", surface=\"lawn\")");
+  if (is_bare(model, "TINRelief")) add("ground(target=\"TINRelief\", surface=\"by_density\")");
+  if (is_bare(model, "LandUse")) add("ground(target=\"LandUse\", surface=\"by_density\")");
   if (is_bare(model, "TransportSquare")) add("ground(target=\"TransportSquare\", surface=\"paving\")");
   if (is_bare(model, "Road")) nodes += dressing_of_roads(model);
   if (is_bare(model, "PlantCover"))
-    add(has_steeper(model, "PlantCover", steep) ? "greenery(target=\"PlantCover\")"
-                                                : "ground(target=\"PlantCover\", surface=\"lawn\")");
+    add(steeper_fraction(model, "PlantCover", steep) > min_spikes
+            ? "greenery(target=\"PlantCover\")"
+            : "ground(target=\"PlantCover\", surface=\"lawn\")");
   return nodes;
 }
 
@@ -258,7 +260,9 @@ std::string bare_scene(const Model& model, const std::string& file,
     script +=
         "// The file has no roads: road(path=\"x y, x y\") adds streets, which traffic, lamps and parked "
         "cars need.\n";
-  script += is_town ? "terrain_plane()\n" : "terrain_plane(surface=\"paving\", beyond=\"lawn\")\n";
+  const bool is_house = is_exhibit && size.z > house_m && std::max(size.x, size.y) > 2.0f * house_m;
+  const bool is_in_gardens = is_town ? !is_dense(model) : is_house;
+  script += is_in_gardens ? "terrain_plane(surface=\"lawn\")\n" : "terrain_plane()\n";
   if (has_surface(model, "SolitaryVegetationObject")) script += "grownTrees(of=\"place\")\n";
   script += nodes_of_kerbs(model, surfaces, street.eye);
   script += "\n// A summer's afternoon.\n" + day_light(place_deg) +

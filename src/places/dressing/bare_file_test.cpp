@@ -57,6 +57,25 @@ TEST(BareFile, BareVolumesAreDressed) {
   EXPECT_EQ(script.find("TINRelief"), std::string::npos) << "nothing that would match nothing";
 }
 
+TEST(BareFile, HousesInGardensStandOnLawns) {
+  Model village, house, car;
+  for (float x = 0.0f; x < 240.0f; x += 40.0f) {
+    add_part(village, "WallSurface", scene::box({x, 0, 0}, {x + 10, 10, 6}));
+    add_part(village, "RoofSurface", scene::box({x, 0, 6}, {x + 10, 10, 7}));
+  }
+  Mesh land;
+  land.positions = {{-40, -40, 0}, {300, -40, 0}, {300, 80, 0}, {-40, 80, 0}};
+  land.indices = {0, 1, 2, 0, 2, 3};
+  add_part(village, "LandUse", std::move(land));
+  add_part(house, "house", scene::box({0, 0, 0}, {9, 11, 7}));
+  add_part(car, "car", scene::box({0, 0, 0}, {4.3f, 1.8f, 1.5f}));
+  const std::string script = bare_scene(village, "village.osm");
+  EXPECT_NE(script.find("ground(target=\"LandUse\", surface=\"by_density\")"), std::string::npos) << script;
+  EXPECT_NE(script.find("terrain_plane(surface=\"lawn\")"), std::string::npos) << script;
+  EXPECT_NE(bare_scene(house, "house.glb").find("terrain_plane(surface=\"lawn\")"), std::string::npos);
+  EXPECT_NE(bare_scene(car, "car.glb").find("terrain_plane()"), std::string::npos);
+}
+
 /// A ridge from west to east, 400 m by 300 m and 80 m high, about a local origin in its middle.
 Model ridge() {
   Mesh mesh;

@@ -5,6 +5,7 @@
 #include "places/dressing/facades.h"
 #include "places/dressing/ground_cover.h"
 #include "places/dressing/roofs.h"
+#include "places/dressing/town_ground.h"
 #include "scene/data/model_parts.h"
 #include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
@@ -14,6 +15,7 @@ namespace parvis::dressing {
 namespace {
 
 constexpr const char *wall_name = "WallSurface", *roof_name = "RoofSurface";
+constexpr const char* by_density = "by_density";  // a surface of ground()
 
 scene::AttributeSchema target_attribute() {
   using namespace scene::attribute;
@@ -93,16 +95,23 @@ void build_roofs(const scene::Node& node, scene::Model& model, scene::SceneBuild
 
 scene::NodeSchema ground_schema() {
   using namespace scene::attribute;
+  std::vector<std::string> surfaces = ground_covers();
+  surfaces.emplace_back(by_density);
   return {.type = "ground",
           .help = "What lies on the ground of a city model. The material has the name of the surface.",
           .attributes = {target_attribute(),
-                         choice("surface", "what to lay", ground_covers()).by_default("paving")},
+                         choice("surface",
+                                "what to lay; by_density: paving where houses stand close, lawn elsewhere",
+                                surfaces)
+                             .by_default("paving")},
           .stands_in = {"model"},
           .example = example_of("ground(target=\"TINRelief\", surface=\"gravel\")")};
 }
 
 void build_ground(const scene::Node& node, scene::Model& model, scene::SceneBuilder& builder) {
-  if (add_ground_cover(model, node.text("target"), node.text("surface")) == 0)
+  const std::string &target = node.text("target"), &surface = node.text("surface");
+  if ((surface == by_density ? add_town_ground(model, target) : add_ground_cover(model, target, surface)) ==
+      0)
     warn(builder, node, model, "ground");
 }
 

@@ -21,6 +21,7 @@ constexpr float straight_m = 0.6f;                     // of the edge of paved g
 constexpr int max_block = 32;                          // cells on a side of such a block
 constexpr int max_even_points = 15;                    // of an edge, one after the other
 constexpr float paved_m = 14.0f;                       // from what is built
+constexpr float closed_m = 14.0f;                      // paved ground has no holes so wide, nor twice that
 constexpr float paved_wander_m = 6.0f;                 // of the edge of the paved ground
 constexpr float far_sheets = 3.0f;                     // size of pictures far away: fewer repeats
 constexpr float skirt_m = 2.0f, skirt_drop_m = 0.05f;  // of the land around, inward and down
@@ -220,12 +221,17 @@ scene::Model near_terrain(const scene::PlaceHeights& place, const TerrainLook& l
   const scene::HeightRaster& heights = place.heights();
   const scene::GroundRaster<float> to_foreign = scene::distances_to(place.own_ground(), 0);
   const scene::GroundRaster<float> to_built = scene::distances_to(place.built(), 1);
+  // Closed (dilated, then eroded), so that no lawns are left as blots between houses.
+  scene::Mask grown(heights, 0);
+  for (std::size_t i = 0; i < grown.cells.size(); ++i)
+    grown.cells[i] = to_built.cells[i] < paved_m + closed_m;
+  const scene::GroundRaster<float> to_lawn = scene::distances_to(grown, 0);
   const auto corner = [&](int x, int y) {
     const glm::vec2 p = heights.centre_of({x, y});
     const float wander = paved_wander_m * std::sin(0.11f * p.x + 2.0f * std::sin(0.07f * p.y)) *
                          std::sin(0.09f * p.y + 1.5f * std::sin(0.06f * p.x));
     return Corner{glm::vec3(p, heights.at(x, y) - lowered_m(place, x, y)),
-                  to_built.at(x, y) - paved_m + wander};
+                  closed_m - to_lawn.at(x, y) + wander};
   };
   Layer paved{{}, cover_sheet_m(look.surface)}, beyond{{}, cover_sheet_m(look.beyond)};
   const auto overlap = [&](int x, int y) {

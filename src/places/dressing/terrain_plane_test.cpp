@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/data/scene.h"
+#include "scene/data/test_scene.h"
 
 namespace parvis::dressing {
 namespace {
@@ -82,6 +83,27 @@ TEST(TerrainPlane, TakesFewTrianglesAroundLevelGroundAndHasNoStepThere) {
   EXPECT_GT(extent.area_m2, all_m2 - 200.0 * 200.0) << "no gap beside the place's own ground";
   EXPECT_LT(extent.area_m2, all_m2 - 190.0 * 190.0) << "and none of it twice";
   ASSERT_EQ(terrain.parts.size(), 2u) << "paving around the house, and lawn";
+}
+
+TEST(TerrainPlane, LeavesNoLawnsAsBlotsBetweenHouses) {
+  scene::Scene scene;
+  auto model = std::make_shared<scene::Model>();
+  model->materials.emplace_back();
+  for (float x = 0.0f; x < 200.0f; x += 50.0f)
+    for (float y = 0.0f; y < 200.0f; y += 50.0f) {
+      scene::Part part;
+      part.object = "WallSurface", part.mesh = scene::box({x, y, 0}, {x + 14, y + 14, 6});
+      model->parts.push_back(std::move(part));
+    }
+  scene.objects.emplace_back();
+  scene.objects.back().model = model;
+  const scene::PlaceHeights place(scene, {}, 60.0f);
+  const scene::Model terrain = near_terrain(place, {"paving", "lawn", 500.0f});
+  for (const scene::Part& part : terrain.parts)
+    for (const glm::vec3& p : part.mesh.positions)
+      if (part.object == "TINRelief beyond") {
+        EXPECT_FALSE(p.x > 5.0f && p.x < 159.0f && p.y > 5.0f && p.y < 159.0f) << p.x << " " << p.y;
+      }
 }
 
 TEST(TerrainPlane, GoesOnBelowUnevenGround) {

@@ -15,7 +15,7 @@ namespace {
 
 using glm::vec2, glm::vec3;
 
-constexpr unsigned char lane_bit = 1, thing_bit = 2;
+constexpr unsigned char lane_bit = 1, thing_bit = 2, deck_bit = 4;
 constexpr float lane_reach_m = 12.0f;  // beside a lane, of what is looked at
 constexpr float free_cell_m = 0.4f;
 constexpr float low_m = 0.35f, high_m = 3.5f;
@@ -79,8 +79,8 @@ void FreeGround::mark(vec2 point, float radius_m, unsigned char with) {
 
 void FreeGround::take(vec2 point, float radius_m) { mark(point, radius_m, thing_bit); }
 
-bool FreeGround::is_free(vec2 point, float radius_m, float from_lanes_m) const {
-  const float reach = std::max(radius_m, from_lanes_m);
+bool FreeGround::is_free(vec2 point, float radius_m, float from_lanes_m, float from_decks_m) const {
+  const float reach = std::max({radius_m, from_lanes_m, from_decks_m});
   const glm::ivec2 first = taken_.cell_at(point - reach), last = taken_.cell_at(point + reach),
                    own = taken_.cell_at(point);
   if (!taken_.contains(first.x, first.y) || !taken_.contains(last.x, last.y)) return false;
@@ -94,9 +94,9 @@ bool FreeGround::is_free(vec2 point, float radius_m, float from_lanes_m) const {
       if ((taken & lane_bit) != 0 && from_lanes_m > 0.0f &&
           (is_own || glm::distance(middle, point) < from_lanes_m))
         return false;
-      if ((taken & thing_bit) != 0 &&
-          glm::distance(glm::clamp(point, middle - half, middle + half), point) < radius_m)
-        return false;
+      const float away_m = glm::distance(glm::clamp(point, middle - half, middle + half), point);
+      if ((taken & thing_bit) != 0 && away_m < radius_m) return false;
+      if ((taken & deck_bit) != 0 && away_m < from_decks_m) return false;
     }
   return true;
 }
@@ -121,9 +121,12 @@ void FreeGround::take_things(const scene::Scene& scene) {
         return vec3(world * glm::vec4(part.mesh.positions[part.mesh.indices[i]], 1.0f));
       };
       const bool is_in_tunnel = part.object == "Road tunnel";  // as readers of maps call its floor
-      for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3)
+      const bool is_of_bridge = part.object.starts_with("Bridge");
+      for (std::size_t i = 0; i + 2 < part.mesh.indices.size(); i += 3) {
         is_in_tunnel ? take_floor(corner(i), corner(i + 1), corner(i + 2))
                      : take_triangle(corner(i), corner(i + 1), corner(i + 2));
+        if (is_of_bridge) take_deck(corner(i), corner(i + 1), corner(i + 2));
+      }
     }
   }
 }
@@ -156,6 +159,14 @@ void FreeGround::take_floor(vec3 a, vec3 b, vec3 c) {
     const float ground_m = heights_.at(taken_.centre_of(cell), float(part.front().z));
     if (std::abs(ground_m - float(part.front().z)) < low_m) taken_.at(cell.x, cell.y) |= thing_bit;
   });
+}
+
+/// Takes the plan of a deck: nothing parks or grows on a bridge, nor through it from below.
+void FreeGround::take_deck(vec3 a, vec3 b, vec3 c) {
+  const vec3 across = glm::cross(b - a, c - a);
+  if (!(std::abs(across.z) > steep * glm::length(across))) return;
+  each_cell_under(taken_, Corners{a, b, c},
+                  [&](glm::ivec2 cell, const Corners&) { taken_.at(cell.x, cell.y) |= deck_bit; });
 }
 
 /// Takes a triangle, which is ground if it is level, or a roof above things that stand.

@@ -62,7 +62,8 @@ std::vector<KerbPlace> take_kerb_places(const scene::RoadGraph& roads, const Ker
       for (const bool is_left : {false, true}) {
         const vec2 right(along.y, -along.x), foot = vec2(middle) + (is_left ? -beside_m : beside_m) * right;
         const auto is_free = [&](vec2 p) {
-          return ground.is_free(p, series.radius_m, is_on_lane ? 0.0f : series.from_lanes_m);
+          return ground.is_free(p, series.radius_m, is_on_lane ? 0.0f : series.from_lanes_m,
+                                series.from_decks_m);
         };
         // Chance decides about places outside the circle, too: a wider one changes none of those inside.
         const bool is_taken = random.chance(series.share);

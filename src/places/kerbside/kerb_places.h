@@ -24,6 +24,7 @@ struct KerbSeries {
   float half_length_m = 0.0f;         ///< along the kerb
   float radius_m = 0.5f;              ///< about the line along that length nothing else may stand
   float from_lanes_m = 0.2f;          ///< about that line there is no carriageway
+  float from_decks_m = 0.5f;          ///< and no deck of a bridge: crowns are wide
   float share = 1.0f;                 ///< of the places: the others stay free
   bool stands_on_wide_lanes = false;  ///< on lanes of 4.8 m and more, beside the kerb, as parked cars do
   std::optional<Circle> circle = {};  ///< in which it stands; without one: everywhere

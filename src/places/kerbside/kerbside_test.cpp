@@ -140,6 +140,41 @@ TEST_F(Kerbside, NothingStandsInTunnels) {
   })) << "in the trenches they do";
 }
 
+TEST_F(Kerbside, NothingStandsOnBridgesNorGrowsThroughThem) {
+  const auto near_the_bridge = [&](const char* bridge) {
+    std::string map =
+        R"(<osm version="0.6"><bounds minlat="48" minlon="11" maxlat="48.003" maxlon="11.003"/>)";
+    const auto add_node = [&](int id, double lat, double lon) {
+      map += fmt::format("<node id=\"{}\" version=\"1\" lat=\"{}\" lon=\"{}\"/>", id, lat, lon);
+    };
+    const auto add_way = [&](int id, int from, int to, const std::string& tags) {
+      map += fmt::format("<way id=\"{}\" version=\"1\"><nd ref=\"{}\"/><nd ref=\"{}\"/>{}</way>", id, from,
+                         to, "<tag k=\"highway\" v=\"secondary\"/>" + tags);
+    };
+    add_node(1, 48.0001, 11.0015), add_node(2, 48.0012, 11.0015), add_node(3, 48.0018, 11.0015);
+    add_node(4, 48.0029, 11.0015), add_node(5, 48.0015, 11.0001), add_node(6, 48.0015, 11.0029);
+    add_way(1, 1, 2, ""), add_way(3, 3, 4, ""), add_way(4, 5, 6, "");
+    add_way(2, 2, 3, fmt::format("<tag k=\"bridge\" v=\"{}\"/><tag k=\"layer\" v=\"1\"/>", bridge));
+    folder_.write("map.osm", map + "</osm>");
+    const auto loaded = ScriptTest::load(
+        "model(name=\"map\", file=\"map.osm\")\nstreets(of=\"map\")\nstreetTrees(height=9)\n"
+        "parkedCars(share=1)\nstreetFurniture(kind=\"lamps\")\n"
+        "camera(name=\"eye\", position=\"0 -9 2\", target=\"0 0 1\")\n");
+    EXPECT_TRUE(loaded) << to_string(loaded.errors());
+    std::array<std::ptrdiff_t, 2> counts{};  // where the bridge is; along the street below, away from it
+    for (const char* name : {"street tree", "parked car", "street lamp"})
+      for (const scene::Object& object : called(loaded->scene, name)) {
+        const glm::vec2 p = place_of(object);
+        counts[0] += std::abs(p.x) < 8.0f && std::abs(p.y) < 30.0f;
+        counts[1] += std::abs(p.x) > 25.0f && std::abs(p.y) < 30.0f;
+      }
+    return counts;
+  };
+  EXPECT_EQ(near_the_bridge("yes")[0], 0);
+  EXPECT_GT(near_the_bridge("yes")[1], 10);
+  EXPECT_GT(near_the_bridge("no")[0], 0);
+}
+
 TEST_F(Kerbside, TreesOfAMapGrow) {
   folder_.write("map.osm",
                 R"(<osm version="0.6"><bounds minlat="48" minlon="11" maxlat="48.001" maxlon="11.002"/>

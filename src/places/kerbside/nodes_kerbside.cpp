@@ -28,6 +28,7 @@ namespace parvis::kerbside {
 namespace {
 
 constexpr std::size_t max_objects = 50'000;
+constexpr float crown_share = 0.45f;  // of a tree's height: its widest crown's radius
 
 /// A series that a script asks for.
 struct PlannedSeries {
@@ -127,7 +128,9 @@ void build_street_trees(const scene::Node& node, scene::SceneBuilder& builder) {
   const float height_m = float(node.number("height"));
   PlannedSeries planned;
   planned.is_visible = is_visible(node, builder);
-  planned.series = {.spacing_m = float(node.number("spacing")), .radius_m = float(node.number("clear"))};
+  planned.series = {.spacing_m = float(node.number("spacing")),
+                    .radius_m = float(node.number("clear")),
+                    .from_decks_m = crown_share * height_m};
   planned.object_name = "street tree";
   planned.of = node.text("of"), planned.where_of = node.where_of("of");
   planned.models = [height_m](std::size_t) { return street_trees(height_m, synthesis::place_seed); };
