@@ -13,6 +13,9 @@ namespace parvis::viewer {
 namespace {
 
 constexpr float radians_per_pixel = 0.0025f;
+constexpr std::array movement{GLFW_KEY_W, GLFW_KEY_S, GLFW_KEY_A, GLFW_KEY_D, GLFW_KEY_E, GLFW_KEY_Q};
+constexpr double tap_s =
+    0.15;  // a key that was pressed and released while a frame was drawn was held so long
 constexpr double farthest_click = 4.0;  // from press to release, in the window's units: beyond, it is a drag
 
 /// Keys of the planner's tool that go on while they are held: others would switch to and fro.
@@ -63,6 +66,8 @@ bool Input::tell_scene(const std::string& key, int action) {
 
 void Input::on_key(int key, int action, int modifiers) {
   if (ImGui::GetIO().WantTextInput && action == GLFW_PRESS) return;
+  if (const auto moves = std::ranges::find(movement, key); moves != movement.end() && action == GLFW_PRESS)
+    was_pressed_[std::size_t(moves - movement.begin())] = true;
   if (tell_scene(key_name(key), action) || action == GLFW_RELEASE) return;
   if (action == GLFW_REPEAT && !repeats(key)) return;
   if (press_planning(key, modifiers) || action != GLFW_PRESS) return;
@@ -364,16 +369,18 @@ Controls Input::poll(double seconds) {
       planning_.tool()->leave();
   }
   Controls controls = std::exchange(controls_, {});
-  const auto is_down = [&](int key) {
+  const std::array pressed = std::exchange(was_pressed_, {});
+  const auto held = [&](std::size_t of) {
+    const int key = movement[of];
     const bool is_for_scene = visit_.actions().uses_key(key_name(key));
     const bool turns = planning_.is_on() && planning_.tool()->mode() == planner::Mode::insert &&
                        (key == GLFW_KEY_Q || key == GLFW_KEY_E);
     const bool has_control = is_held(GLFW_KEY_LEFT_CONTROL) || is_held(GLFW_KEY_RIGHT_CONTROL);
     const bool counts = !is_for_scene && !turns && !has_control && !ImGui::GetIO().WantTextInput;
-    return counts && glfwGetKey(window_, key) == GLFW_PRESS ? 1.0f : 0.0f;
+    if (counts && glfwGetKey(window_, key) == GLFW_PRESS) return 1.0f;
+    return counts && pressed[of] ? float(std::min(tap_s / std::max(seconds, tap_s), 1.0)) : 0.0f;
   };
-  controls.move = {is_down(GLFW_KEY_W) - is_down(GLFW_KEY_S), is_down(GLFW_KEY_A) - is_down(GLFW_KEY_D),
-                   is_down(GLFW_KEY_E) - is_down(GLFW_KEY_Q)};
+  controls.move = {held(0) - held(1), held(2) - held(3), held(4) - held(5)};
   controls.hurries = glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS;
   return controls;
 }

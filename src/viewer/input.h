@@ -47,6 +47,9 @@ class Input {
   float share_of_picture(double x) const;
 
   GLFWwindow* window_;
+  static constexpr std::size_t movement_keys = 6;
+  /// Whether each of W, S, A, D, E and Q was pressed since the last poll, if only for a moment.
+  std::array<bool, movement_keys> was_pressed_{};
   Visit& visit_;
   Panel& panel_;
   Planning& planning_;

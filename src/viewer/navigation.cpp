@@ -13,7 +13,8 @@ constexpr float hurry_factor = 5.0f;
 constexpr float highest_pitch = 1.5f;    // radians, short of the zenith, where heading loses its meaning
 constexpr float follow_height_m = 0.9f;  // where the eye rests on a car
 constexpr float lowest_eye_m = 0.4f;
-constexpr float plan_eye_m = 300.0f;  // of a plan's eye above what it shows
+constexpr float plan_eye_m = 300.0f;      // of a plan's eye above what it shows
+constexpr float longest_stride_s = 0.1f;  // on foot: a longer step would lead through a wall
 constexpr float smallest_plan_m = 2.0f, largest_plan_m = 20'000.0f;
 
 }  // namespace
@@ -130,11 +131,15 @@ void Navigation::step(const Controls& controls, float seconds, const glm::mat4& 
       controls.move.x * ahead + controls.move.y * left + climb * glm::vec3(0.0f, 0.0f, 1.0f);
   const float length = glm::length(direction);
   if (length == 0.0f) return;
-  const glm::vec3 to = position_ + direction * (speed * seconds / std::max(length, 1.0f));
-  if (mode_ != Mode::walk || !on_foot)
-    position_ = to;
-  else if (const std::optional<glm::vec3> reached = on_foot(position_, to))
-    position_ = *reached;
+  const int steps = std::max(1, int(std::ceil(seconds / longest_stride_s)));
+  const glm::vec3 step = direction * (speed * seconds / (std::max(length, 1.0f) * float(steps)));
+  for (int i = 0; i < steps; ++i) {
+    const glm::vec3 to = position_ + step;
+    if (mode_ != Mode::walk || !on_foot)
+      position_ = to;
+    else if (const std::optional<glm::vec3> reached = on_foot(position_, to))
+      position_ = *reached;
+  }
 }
 
 Camera Navigation::camera() const {

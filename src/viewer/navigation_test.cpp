@@ -139,5 +139,21 @@ TEST(Navigation, OnFootItGoesWhereItMay) {
   EXPECT_GT(reached.z, 2.0f) << "it climbs";
 }
 
+TEST(Navigation, ASlowFrameGoesAsFarAsManyFastOnesAndThroughNoWall) {
+  Controls forward;
+  forward.move.x = 1.0f;
+  const auto reached = [&](int frames, float seconds) {
+    Navigation visitor(at_origin_looking_north());
+    visitor.on_foot = [](glm::vec3, glm::vec3 to) {  // a wall 5 cm thick
+      return to.y > 1.0f && to.y < 1.2f ? std::nullopt : std::optional(to);
+    };
+    for (int i = 0; i < frames; ++i) visitor.step(forward, seconds, nothing);
+    return visitor.camera().position_in_world().y;
+  };
+  EXPECT_NEAR(reached(1, 0.5f), reached(5, 0.1f), 1e-3f);
+  EXPECT_GT(reached(1, 0.5f), 0.7f);
+  EXPECT_LT(reached(2, 1.0f), 1.0f);
+}
+
 }  // namespace
 }  // namespace parvis::viewer

@@ -15,9 +15,8 @@ namespace {
 constexpr double notice_s = 5.0, error_notice_s = 12.0;
 constexpr std::size_t max_notices = 4;
 constexpr float halted_step_s = 0.1f;
-// A frame that takes longer than this is a pause, after which the scene goes on where it was; the visitor's
-// own steps are shorter, so that no slow frame carries them through a wall.
-constexpr float longest_step_s = 1.0f, longest_walk_s = 0.1f;
+// A frame that takes longer than this is a pause, after which the scene goes on where it was.
+constexpr float longest_step_s = 1.0f;
 
 }  // namespace
 
@@ -43,7 +42,7 @@ void Visit::step(const Controls& controls, float passed_s, bool stands_still) {
     notice_error(to_string(warning));
   follow_guidance(controls);
   const bool has_vehicle = followed_ >= 0 && followed_ < int(scene().objects.size());
-  navigation_.step(controls, std::min(seconds, longest_walk_s),
+  navigation_.step(controls, seconds,
                    has_vehicle ? scene().objects[std::size_t(followed_)].world_from_model : glm::mat4(1.0f));
 }
 

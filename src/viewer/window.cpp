@@ -73,6 +73,33 @@ struct ImguiInput {
   ~ImguiInput() { ImGui_ImplGlfw_Shutdown(); }
 };
 
+/// Says in the window what is done until the first picture is there: a black window looks as if it hung.
+void show_opening(GLFWwindow* window, const WindowOptions& options) {
+  const Scale scale = scale_of(window);
+  ImguiContext imgui(scale.interface, scale.pixels_per_point);
+  const ImguiInput input(window);
+  for (int buffer = 0; buffer < 2; ++buffer) {  // both of them: the window may be mapped after the first
+    glfwPollEvents();
+    ImGui_ImplGlfw_NewFrame();
+    imgui.begin_frame();
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, 0, {0.5f, 0.5f});
+    ImGui::Begin("opening", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::PushFont(imgui.fonts().heading);
+    ImGui::Text("%s is being prepared", options.title.c_str());
+    ImGui::PopFont();
+    ImGui::TextUnformatted(
+        gl::is_software() ? "Shaders, light and reflections; without a graphics card this can take a minute."
+                          : "Shaders, light and reflections.");
+    ImGui::End();
+    glClear(GL_COLOR_BUFFER_BIT);
+    imgui.draw();
+    glfwSwapBuffers(window);
+  }
+  glfwSetWindowTitle(window, (title_of(options) + ": is being prepared").c_str());
+  glfwPollEvents();
+}
+
 Image8 read_window(int width, int height) {
   Image8 picture(width, height, 3);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
@@ -127,6 +154,7 @@ class Frames {
         if (Status status = write_image(options_.screenshot, read_window(width_, height_)); !status)
           return status;
       glfwSwapBuffers(window_);
+      if (frame == 1) glfwSetWindowTitle(window_, title_of(options_).c_str());
       show_refinement();
       if (frame == settling_frames) settled = Clock::now();
       if (is_last) {
@@ -233,6 +261,7 @@ bool begins_at_once(const WindowOptions& options) {
 Status show(house::Play play, const WindowOptions& options) {
   Glfw glfw;
   if (Status status = open_window(glfw, options); !status) return status;
+  show_opening(glfw.window, options);
   play.scene.data<methods::Pace>().begins_at_once = begins_at_once(options);
   Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(std::move(play));
   if (!stage) return stage.errors();
