@@ -151,6 +151,20 @@ TEST_F(MissingMapsTest, AWindowDrawsOnePerFrameAndEndsWithTheSamePicture) {
   EXPECT_EQ(renderer_->read_picture(1.0f).pixels, whole.pixels);
 }
 
+TEST_F(MissingMapsTest, AWindowShowsNoMapOfTheDayByNight) {
+  scene_.sun.irradiance = glm::vec3(8.0f);
+  reflections_->prefer_rate();
+  std::size_t drawn = 0;
+  while (maps_after_next_frame() != drawn) drawn = maps().drawn_maps();
+  scene_.sun.irradiance = glm::vec3(0.0f);
+  EXPECT_EQ(maps_after_next_frame(), 2u) << "all others are gone";
+  const Image8 first = renderer_->read_picture(1.0f);
+  while (maps_after_next_frame() != drawn) {
+  }
+  const auto brightest = [](const Image8& picture) { return int(std::ranges::max(picture.pixels)); };
+  EXPECT_NEAR(brightest(first), brightest(renderer_->read_picture(1.0f)), 8);
+}
+
 TEST_F(MissingMapsTest, WhatAWindowDrewItsNextStartReads) {
   const TestFolder folder;
   scene_.file = folder.path() / "room.xp";

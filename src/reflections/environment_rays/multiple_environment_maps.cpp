@@ -154,6 +154,13 @@ void MultipleEnvironmentMaps::forget_surroundings() {
     table_.forget();
 }
 
+/// Forgets all maps, after a jump of the light: a few maps in the new light stand in for all until the others
+/// are drawn.
+void MultipleEnvironmentMaps::forget_light() {
+  renewal_.ask(maps_.places().size(), {});
+  table_.forget();
+}
+
 void MultipleEnvironmentMaps::begin_frame() {
   wanted_.clear();
   table_.begin_frame();
@@ -241,6 +248,7 @@ std::span<const methods::VisibleReflector> MultipleEnvironmentMaps::with_smooth_
 void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                           const std::vector<methods::VisibleReflector>& reflectors) {
   prepared_.clear();
+  if (light_jump_.has_come(renderer, scene)) forget_light();
   details_.resize(scene.objects.size(), all_detail);
   bodies_.follow_objects(scene);
   if (!reflectors.empty()) bodies_.update(scene, reflectors);

@@ -10,6 +10,7 @@
 #include "graphics/render/quality_budget.h"
 #include "reflections/environment_rays/map_table.h"
 #include "reflections/environment_rays/mirrored_bodies.h"
+#include "reflections/methods/light_jump.h"
 #include "reflections/methods/mirror_picture.h"
 #include "reflections/methods/reflections.h"
 #include "reflections/reference_maps/height_pyramid.h"
@@ -75,6 +76,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   bool take_places(const scene::Scene& scene);
   void keep(const scene::Scene& scene, std::size_t map);
   void forget_surroundings() override;
+  void forget_light();
   void find_missing_maps(const render::Renderer& renderer,
                          const std::vector<methods::VisibleReflector>& reflectors);
 
@@ -91,6 +93,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   std::unique_ptr<MapKeeper> keeper_;    ///< from the first map on that a window draws
   ReferenceMaps maps_;
   MapRenewal renewal_;
+  methods::LightJump light_jump_;
   MirroredBodies bodies_;
   glm::vec2 origin_;
   float cell_m_;

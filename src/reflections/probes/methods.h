@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "reflections/methods/light_jump.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/cube_map_reflections.h"
 
@@ -80,6 +81,7 @@ class TimeSlicedCubeMap final : public CubeMapReflections {
 
   int resolution_;
   TimeSlicing slicing_;
+  methods::LightJump light_jump_;
   std::map<int, Sliced> maps_;  ///< by object
   std::int64_t faces_so_far_ = 0;
   std::vector<methods::VisibleReflector> waiting_;  ///< reflectors whose maps were there before this frame

@@ -20,8 +20,9 @@ void TimeSlicedCubeMap::draw_next_face(render::Renderer& renderer,
   ++faces_drawn_;
 }
 
-void TimeSlicedCubeMap::update_maps(render::Renderer& renderer, const scene::Scene&,
+void TimeSlicedCubeMap::update_maps(render::Renderer& renderer, const scene::Scene& scene,
                                     const std::vector<methods::VisibleReflector>& reflectors) {
+  if (light_jump_.has_come(renderer, scene)) maps_.clear();
   for (auto& [object, sliced] : maps_) ++sliced.idle_frames;
   waiting_.clear();
   for (const methods::VisibleReflector& reflector : reflectors) {
