@@ -1,5 +1,6 @@
 // The sky behind all else, and in views for people the sun's disc.
 #include "graphics/render/sky_lookup.glsl"
+#include "graphics/shading/beyond_land.glsl"
 #include "graphics/shading/sun.glsl"
 
 uniform mat4 world_from_clip;
@@ -15,6 +16,6 @@ void main() {
   float share = clamp((1.0f - from_centre) / max(fwidth(from_centre), 1e-6f) + 0.5f, 0.0f, 1.0f);
   float is_sun = frame_spot.w > -1.5f ? 0.0f : shows_sun;
   vec3 sun = is_sun * share / sun_solid_angle_sr * frame_sun_irradiance.rgb;
-  radiance =
-      vec4(min(sky_radiance(direction, 0.0f) + sun, vec3(30000.0f)), 1.0f);  // the target holds half floats
+  vec3 behind = beyond_land(sky_radiance(direction, 0.0f), direction.z, frame_to_sun.w, frame_haze.rgb);
+  radiance = vec4(min(behind + sun, vec3(30000.0f)), 1.0f);  // the target holds half floats
 }

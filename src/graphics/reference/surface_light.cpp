@@ -5,6 +5,11 @@
 
 #include "graphics/reference/scene_lamps.h"
 #include "graphics/shading/recorded_shadow.h"
+#include "graphics/shading/sky.h"
+
+namespace parvis::shading {
+#include "graphics/shading/beyond_land.glsl"
+}
 
 namespace parvis::reference {
 
@@ -42,7 +47,9 @@ SurfaceLight::SurfaceLight(const RayScene& rays, const scene::Scene& scene, cons
 
 vec3 SurfaceLight::behind_all(vec3 direction, bool is_direct) const {
   const bool sees_sun = is_direct && !spot_ && sun_disc_.contains(direction);
-  return sky_radiance(sky_, direction, 0.0f) + (sees_sun ? sun_disc_.radiance() : vec3(0.0f));
+  const vec3 sky = sky_radiance(sky_, direction, 0.0f);
+  return shading::beyond_land(sky, direction.z, light_.haze_per_m, light_.haze_radiance) +
+         (sees_sun ? sun_disc_.radiance() : vec3(0.0f));
 }
 
 vec3 SurfaceLight::through_haze(vec3 radiance, float distance_m) const {
