@@ -2,6 +2,7 @@
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
+#include <sys/resource.h>
 
 #include <array>
 #include <cstring>
@@ -27,6 +28,8 @@ constexpr std::array<EGLint, 9> wanted{EGL_CONTEXT_MAJOR_VERSION,
                                        EGL_NONE};
 #endif
 constexpr std::array<EGLint, 1> whatever_there_is{EGL_NONE};
+constexpr rlim_t min_address_space_bytes =
+    1'200'000'000;  // Mesa's drivers map so much, and end a process that may not
 
 bool is_software_device(EGLDeviceEXT device) {
   const char* extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
@@ -74,9 +77,17 @@ void GLAPIENTRY report(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, co
 }
 #endif
 
+Status check_address_space() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur >= min_address_space_bytes) return Done{};
+  return error("drawing takes {} MB of address space, and this process may have {} (ulimit -v): allow more",
+               min_address_space_bytes / 1'000'000, limit.rlim_cur / 1'000'000);
+}
+
 }  // namespace
 
 Result<Context> Context::create_headless() {
+  if (Status status = check_address_space(); !status) return status.errors();
   const std::vector<EGLDisplay> displays = candidate_displays();
   for (EGLDisplay display : displays) {
     EGLContext context = create_context(display, wanted.data());

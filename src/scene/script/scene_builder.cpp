@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/camera_check.h"
+#include "base/progress.h"
 #include "scene/data/leaf_openness.h"
 #include "scene/script/performer_file.h"
 
@@ -67,7 +68,9 @@ void SceneBuilder::build(const Nodes& nodes, const glm::mat4& parent_from_nodes,
   const NodeFrame outer = frame_;
   frame_.world_from_nodes = outer.world_from_nodes * parent_from_nodes;
   frame_.is_visible = outer.is_visible && is_visible;
+  Progress progress("building the scene", nodes.size());
   for (const Node& node : nodes) {
+    progress.advance();
     if (wanted_ && !wanted_->contains(&node)) continue;
     const auto* wanted = std::exchange(wanted_, nullptr);  // what stands in it is wanted, too
     build_one(node);
