@@ -28,12 +28,20 @@ bool is_front_lamp(const SurfaceSample& s) {
   return s.forward > 0.35f && s.srgb.x > 0.7f && s.srgb.y > 0.6f && s.srgb.z < 0.5f;
 }
 
+/// Decides whether a colour is the pale blue that simple models give their panes.
+bool is_pale_blue(glm::vec3 srgb) {
+  constexpr float min_blue = 0.9f, min_red = 0.7f, min_spread = 0.03f;
+  return srgb.z >= min_blue && srgb.x >= min_red && srgb.x <= srgb.y && srgb.y <= srgb.z &&
+         srgb.z - srgb.x >= min_spread;
+}
+
 /// Decides whether a sample is as dark as a hole or as grey as a pane, wherever it lies.
 bool has_colour_of_pane(const SurfaceSample& sample, glm::vec3 paint) {
   constexpr float max_light = 0.92f;
   const float light = (sample.srgb.x + sample.srgb.y + sample.srgb.z) / 3.0f;
-  return sample.is_hole || (spread(sample.srgb) <= grey_tolerance && light < max_light &&
-                            difference(sample.srgb, paint) > grey_tolerance);
+  const bool is_grey = spread(sample.srgb) <= grey_tolerance && light < max_light;
+  return sample.is_hole ||
+         ((is_grey || is_pale_blue(sample.srgb)) && difference(sample.srgb, paint) > grey_tolerance);
 }
 
 /// Panes begin above; grilles are holes, too.
@@ -144,9 +152,9 @@ PictureMask pane_mask(const Image8& picture, const Region& region, glm::vec3 pai
   const glm::vec3 mean = region.weighted_srgb / region.area_m2;
   if (region.holes_m2 > 0.5f * region.area_m2) {
     add_colour_of_holes(picture, mask);
-  } else if (spread(paint) > grey_tolerance) {
+  } else if (spread(paint) > grey_tolerance && !is_pale_blue(mean)) {
     mask.is_grey = true, mask.tolerance = grey_tolerance;
-  } else {  // white, silver and black paint are grey, too
+  } else {  // panes of a colour of their own; white, silver and black paint are grey, too
     mask.colour = mean;
     mask.tolerance = glm::clamp(0.5f * difference(mean, paint), min_tolerance, max_tolerance);
   }

@@ -32,8 +32,9 @@ struct PictureMasks {
 /// The colour that covers most of the car's sides, sRGB.
 glm::vec3 paint_of(std::span<const SurfaceSample> samples);
 
-/// Panes are grey, not of the paint's kind, in the upper half and do not face up; or they are holes in a
-/// picture. Bumpers and aerofoils may have such triangles, too: what they belong to says that it is none.
+/// Panes are grey or pale blue, not of the paint's kind, in the upper half and do not face up; or they are
+/// holes in a picture. Bumpers and aerofoils may have such triangles, too: what they belong to says that it
+/// is none.
 bool is_pane(const SurfaceSample& sample, glm::vec3 paint);
 /// Whether a surface whose highest point is at this share of the car's height can be a pane: these lie on the
 /// cabin and reach up to its roof. Bumpers, grilles and aerofoils on boots end below.

@@ -85,6 +85,14 @@ TEST_F(CarProposal, OnePictureIsDividedByMasks) {
   EXPECT_GT(area_of(model, "paint"), 4.0) << script_;
 }
 
+TEST_F(CarProposal, PanesOfPaleBlueAreGlass) {
+  scene::Model body = bare_body();
+  body.textures[0] = picture("body", {222, 60, 40, 255}, {230, 243, 255, 255});
+  const scene::Model model = proposed(body);
+  EXPECT_NEAR(area_of(model, "glass"), panes_m2, 0.01) << script_;
+  EXPECT_GT(area_of(model, "paint"), 4.0) << script_;
+}
+
 TEST_F(CarProposal, EachOfFourPicturesHasItsMasks) {
   scene::Model body = bare_body();
   // Quarters of the length with pictures of their own; in the last two the halves of the picture are
