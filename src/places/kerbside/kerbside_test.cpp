@@ -165,7 +165,7 @@ TEST_F(Kerbside, NothingStandsOnBridgesNorGrowsThroughThem) {
     for (const char* name : {"street tree", "parked car", "street lamp"})
       for (const scene::Object& object : called(loaded->scene, name)) {
         const glm::vec2 p = place_of(object);
-        counts[0] += std::abs(p.x) < 8.0f && std::abs(p.y) < 30.0f;
+        counts[0] += std::abs(p.x) < 6.5f && std::abs(p.y) < 30.0f;
         counts[1] += std::abs(p.x) > 25.0f && std::abs(p.y) < 30.0f;
       }
     return counts;
