@@ -77,7 +77,8 @@ TEST_F(FilmTest, HasTheSoundThatItWasGiven) {
   ASSERT_TRUE(film) << to_string(film.errors());
   for (int i = 0; i < 12; ++i) ASSERT_TRUE(film->add(grey_frame(200)));
   // A second of silence: one channel of 16 bits at 8 kHz.
-  std::string wave("RIFF\xa4\x3e\0\0WAVEfmt \x10\0\0\0\1\0\1\0\x40\x1f\0\0\x80\x3e\0\0\2\0\x10\0data\x80\x3e\0\0", 44);
+  std::string wave(
+      "RIFF\xa4\x3e\0\0WAVEfmt \x10\0\0\0\1\0\1\0\x40\x1f\0\0\x80\x3e\0\0\2\0\x10\0data\x80\x3e\0\0", 44);
   wave.append(16'000, '\0');
   const Status status = film->finish(wave);
   ASSERT_TRUE(status) << to_string(status.errors());
