@@ -153,9 +153,8 @@ class GroundDivision {
     const bool is_usable = std::ranges::all_of(t, [](const GroundCorner& corner) {
       return std::abs(corner.plan.x) < farthest_m && std::abs(corner.plan.y) < farthest_m;
     });
-    const bool is_uniform =
-        !is_usable || density_.is_uniform(glm::min(a.plan, glm::min(b.plan, c.plan)),
-                                          glm::max(a.plan, glm::max(b.plan, c.plan)));
+    const bool is_uniform = !is_usable || density_.is_uniform(glm::min(a.plan, glm::min(b.plan, c.plan)),
+                                                              glm::max(a.plan, glm::max(b.plan, c.plan)));
     if (is_uniform || depth == max_divisions)
       return append({t.begin(), t.end()},
                     density_.at((a.plan + b.plan + c.plan) / 3.0f) > 0.0f ? paved : lawn);
