@@ -152,12 +152,13 @@ TEST_F(MissingMapsTest, AWindowDrawsOnePerFrameAndEndsWithTheSamePicture) {
 }
 
 TEST_F(MissingMapsTest, AWindowShowsNoMapOfTheDayByNight) {
-  scene_.sun.irradiance = glm::vec3(8.0f);
+  scene_.sun.irradiance = glm::vec3(24.0f);  // seven times as bright with its sky as the sky alone
   reflections_->prefer_rate();
   std::size_t drawn = 0;
   while (maps_after_next_frame() != drawn) drawn = maps().drawn_maps();
   scene_.sun.irradiance = glm::vec3(0.0f);
-  EXPECT_EQ(maps_after_next_frame(), 2u) << "all others are gone";
+  const std::size_t begun = maps_after_next_frame();
+  EXPECT_LT(begun, drawn) << "those of the day are gone";
   const Image8 first = renderer_->read_picture(1.0f);
   while (maps_after_next_frame() != drawn) {
   }
