@@ -147,13 +147,16 @@ TEST(Site, LevelsDoNotJumpAtTheShadowOfACorner) {
   const Site site(terrain, walls);
   const PathChoice choice{.reflections = 0};
   double largest_db = 0.0, largest_without_db = 0.0, before = 0.0, before_without = 0.0;
-  for (double y = -10.0; y < 40.0; y += 0.02) {  // behind the box, from its shadow into the light
+  // Behind the box, from its shadow into the light; beyond y = 5, where a second edge leaves the way round
+  // and the standard's C" steps from 3 to 1.
+  constexpr double begin = 5.1;
+  for (double y = begin; y < 40.0; y += 0.02) {
     const Place source(-20, 0, 1), receiver(20, y, 1.7);
     const Octaves heard = site.transfer(source, receiver, {}, choice, air_10_70).homogeneous_db,
                   lost = site.grazing_loss(source, receiver);
     const double now = heard[3] - lost[3], without = heard[3];
-    if (y > -10.0) largest_db = std::max(largest_db, std::abs(now - before));
-    if (y > -10.0) largest_without_db = std::max(largest_without_db, std::abs(without - before_without));
+    if (y > begin) largest_db = std::max(largest_db, std::abs(now - before));
+    if (y > begin) largest_without_db = std::max(largest_without_db, std::abs(without - before_without));
     before = now, before_without = without;
   }
   EXPECT_LT(largest_db, 0.5);

@@ -280,7 +280,7 @@ std::vector<dvec2> Site::corners_around(const Place& source, const Place& receiv
       if ((a < 0.0 && b < 0.0) || !reached.insert(index).second) continue;
       for (const dvec2 corner : {a >= 0.0 ? wall.a : glm::mix(wall.a, wall.b, a / (a - b)),
                                  b >= 0.0 ? wall.b : glm::mix(wall.a, wall.b, a / (a - b))})
-        if (side * cross(direct, corner - from) > touch_m * direct_m) corners.push_back(corner);
+        if (side * cross(direct, corner - from) > 1e-6 * direct_m) corners.push_back(corner);
       for (int end = 0; end < 2; ++end)
         if ((end == 0 ? a : b) >= 0.0)
           open.insert(open.end(), neighbours_[std::size_t(index)][std::size_t(end)].begin(),
