@@ -58,8 +58,8 @@ Status save(const Session& session, const fs::path& scene_script, const fs::path
   const scene::Node* node = session.design();
   if (!node) return error("the design has no objects yet; there is nothing to write");
   std::error_code code;
-  const fs::path folder = fs::weakly_canonical(scene_script, code).parent_path();
-  if (fs::weakly_canonical(file, code).parent_path() != folder)
+  const fs::path folder = fs::weakly_canonical(fs::absolute(scene_script), code).parent_path();
+  if (fs::weakly_canonical(fs::absolute(file), code).parent_path() != folder)
     return error(
         "{}: a design lies in the folder of its scene, for files are named relative to it; write it to {}",
         file.string(), (folder / file.filename()).string());

@@ -12,7 +12,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double smallest_m = 0.01, largest_m = 200.0;
-constexpr double house_m = 60.0;  // what is larger was hardly drawn in metres
+constexpr double house_m = 60.0;   // what is larger was hardly drawn in metres
+constexpr double bollard_m = 0.3;  // what is smaller was hardly drawn in millimetres
 
 /// A name that commands can write: letters, digits and underscores.
 std::string name_of(const fs::path& file) {
@@ -53,7 +54,8 @@ Result<OwnKind> import_kind(const formats::Readers& readers, const scene::Scene&
     return error("{}: the model has no triangles: nothing would be seen of it", file.string());
   const glm::dvec3 drawn(box.size());
   const bool is_guessed = unit_m == 0.0 && glm::compMax(drawn) > house_m;
-  const double unit = unit_m > 0.0 ? unit_m : is_guessed ? millimetre : metre;
+  const double guess = millimetre * glm::compMax(drawn) < bollard_m ? centimetre : millimetre;
+  const double unit = unit_m > 0.0 ? unit_m : is_guessed ? guess : metre;
   const glm::dvec3 size = glm::max(unit * drawn, glm::dvec3(smallest_m));
   if (glm::compMax(unit * drawn) < smallest_m || glm::compMax(size) > largest_m)
     return error(
@@ -78,7 +80,9 @@ Result<OwnKind> import_kind(const formats::Readers& readers, const scene::Scene&
   if (Status status = scene::write_gltf(scene.file.parent_path() / made.command.file, objects, {}); !status)
     return status.errors();
   made.note = fmt::format("{}: {}{}", made.command.name, extents(made.command.size_m),
-                          is_guessed ? ", read as millimetres" : "");
+                          !is_guessed           ? ""
+                          : guess == centimetre ? ", read as centimetres"
+                                                : ", read as millimetres");
   return made;
 }
 

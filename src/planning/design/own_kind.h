@@ -18,7 +18,8 @@ struct OwnKind {
 };
 
 /// Reads a model and writes it to `kinds/NAME.glb` in the scene's folder, a free name made of the file's,
-/// with its foot at the origin. `unit_m`: metres in the file's unit; 0: metres, or millimetres where it would
+/// with its foot at the origin. `unit_m`: metres in the file's unit; 0: metres, or millimetres or
+/// centimetres where it would
 /// be larger than a house. Errors: those of the reader; a model without triangles; one that is smaller than a
 /// centimetre or larger than 200 m, with its extents in metres, centimetres and millimetres; a folder that
 /// cannot be written.

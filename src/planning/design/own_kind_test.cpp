@@ -72,7 +72,7 @@ TEST_F(OwnKindTest, UnitsAreFoundOrAskedFor) {
   ASSERT_TRUE(millimetres) << to_string(millimetres.errors());
   EXPECT_EQ(millimetres->command.size_m, glm::dvec3(1.8, 0.5, 0.45));
   EXPECT_NE(millimetres->note.find("millimetres"), std::string::npos);
-  EXPECT_EQ(import(box("cm.obj", 180, 45, 50), centimetre)->command.size_m, glm::dvec3(1.8, 0.5, 0.45));
+  EXPECT_EQ(import(box("cm.obj", 180, 45, 50))->command.size_m, glm::dvec3(1.8, 0.5, 0.45));
   const Result<OwnKind> mountain = import(box("huge.obj", 9e6, 1, 1));
   ASSERT_FALSE(mountain);
   const std::string why = to_string(mountain.errors());
