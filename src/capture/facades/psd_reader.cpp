@@ -272,7 +272,7 @@ void apply_groups(std::vector<LayerRecord>& records) {
     if (layer.blend == "norm" || layer.blend == "pass") layer.blend = group.blend;
     if (record.section == 0) continue;
     around.push_back(layer);
-    around.back().is_in_masked_group = group.is_in_masked_group || (record.has_mask && layer.is_mask_enabled);
+    around.back().is_in_masked_group |= record.has_mask && layer.is_mask_enabled;
   }
 }
 
