@@ -60,11 +60,11 @@ std::vector<glm::vec3> in_steps(const std::vector<glm::vec3>& path) {
 /// The parts of a road near ramps, each as a bed.
 void add_beds_near(const RampCells& ramps, const std::vector<glm::vec3>& points, float half_m, bool is_bridge,
                    bool is_turn, std::vector<RoadBed>& beds) {
-  bool goes_on = false;
+  bool is_bed_open = false;
   for (const glm::vec3& point : points) {
     const bool is_near = ramps.are_near(glm::vec2(point));
-    if (is_near && !goes_on) beds.push_back({{}, half_m, is_turn});
-    goes_on = is_near;
+    if (is_near && !is_bed_open) beds.push_back({{}, half_m, is_turn});
+    is_bed_open = is_near;
     if (is_near)
       beds.back().points.push_back(
           {point, is_bridge || double(point.z) < -raised_m ? Bed::none : Bed::earth});

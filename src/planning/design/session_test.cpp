@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/colour.h"
+#include "planning/design/design_file.h"
 #include "planning/design/shape_models.h"
 #include "planning/design/test_design.h"
 #include "planning/design/test_random_commands.h"
@@ -40,6 +41,46 @@ TEST_F(DesignTest, EveryKindOfTheCatalogueStands) {
       EXPECT_NEAR(size[axis], float(kind.size_m[axis]), 0.16f * float(kind.size_m[axis]) + 0.02f)
           << kind.name << " along axis " << axis;
   }
+}
+
+TEST_F(DesignTest, ViewsAreCamerasOfTheDesign) {
+  open();
+  run("view square_1 1,2,30 heading 90 pitch -90 parallel 24");
+  const scene::NamedCamera* kept = scene_.find_camera("square_1");
+  ASSERT_NE(kept, nullptr);
+  ASSERT_TRUE(kept->camera.parallel);
+  EXPECT_EQ(kept->camera.parallel->height_m, 24.0f);
+  EXPECT_EQ(kept->camera.position_in_world(), glm::vec3(1, 2, 30));
+  const KeepView again = view_of(kept->camera, "square_1");
+  EXPECT_EQ(again.heading_deg, 90.0);
+  EXPECT_EQ(again.pitch_deg, -90.0);
+  EXPECT_EQ(again.parallel_m, 24.0);
+
+  run("view square_1 4,5,1.7 heading -30 pitch 5 fov 60");
+  kept = scene_.find_camera("square_1");
+  EXPECT_FALSE(kept->camera.parallel) << "the view of that name is replaced";
+  EXPECT_NEAR(view_of(kept->camera, "").fov_deg, 60.0, 0.02);
+  EXPECT_NEAR(view_of(kept->camera, "").heading_deg, -30.0, 0.02);
+  EXPECT_TRUE(session_->objects().empty()) << "a view is no object";
+
+  run("insert bench_stone 0,0 name bench");
+  EXPECT_NE(refusal("view bench 0,0,1.7").find("another name"), std::string::npos);
+  EXPECT_FALSE(refusal("view flat 0,0,1.7 parallel -1").empty());
+  run("undo"), run("undo"), run("undo");
+  EXPECT_EQ(scene_.find_camera("square_1"), nullptr);
+}
+
+TEST_F(DesignTest, IsWrittenBesideASceneThatIsNamedWithoutAFolder) {
+  open();
+  run("insert bench_stone 0,0");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_.path());
+  const Status written = save(*session_, "scene.xp", "design.xp");
+  const Status elsewhere = save(*session_, "scene.xp", std::filesystem::path("..") / "design.xp");
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(written) << to_string(written.errors());
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "design.xp"));
+  EXPECT_FALSE(elsewhere);
 }
 
 TEST_F(DesignTest, CommandsChangeWhatTheySay) {
