@@ -1,5 +1,7 @@
 // The scale from a sketch to a photograph: its surfaces are those of the ray tracer, its lines lie on edges.
 
+#include "scene/data/realism.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +14,6 @@
 #include "graphics/render/test_renderer.h"
 #include "graphics/shading/tone_curve.h"
 #include "reflections/methods/frame.h"
-#include "scene/data/realism.h"
 #include "scene/data/test_scene.h"
 
 namespace parvis::realism {
