@@ -5,7 +5,7 @@
 #pragma once
 
 namespace parvis {
-class House;
+class Registries;
 }
 
 #define PARVIS_ROOMS(ROOM)                                                                 \
@@ -48,9 +48,9 @@ class House;
   ROOM(plan_drawing)
 
 /// Declares each room's function, in its namespace, that adds its contributions to the registries.
-#define PARVIS_DECLARE_ROOM(name) \
-  namespace parvis::name {        \
-  void furnish(House& house);     \
+#define PARVIS_DECLARE_ROOM(name)             \
+  namespace parvis::name {                    \
+  void register_room(Registries& registries); \
   }
 PARVIS_ROOMS(PARVIS_DECLARE_ROOM)
 #undef PARVIS_DECLARE_ROOM

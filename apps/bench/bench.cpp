@@ -17,24 +17,25 @@ fs::path BenchSetup::city() const {
 }
 
 scene::Scene BenchSetup::scene(const fs::path& script, std::span<const fs::path> data_folders) const {
-  return must(scene::load_scene(script, house::node_registry(), data_folders)).scene;
+  return must(scene::load_scene(script, rooms::node_registry(), data_folders)).scene;
 }
 
-house::Play BenchSetup::play(const fs::path& script, std::span<const fs::path> data_folders) const {
-  return must(house::open_play(house::all_rooms(), script, data_folders));
+stage::Simulation BenchSetup::simulation(const fs::path& script,
+                                         std::span<const fs::path> data_folders) const {
+  return must(stage::open_simulation(rooms::all_registries(), script, data_folders));
 }
 
-std::unique_ptr<house::Stage> stage_of(house::Play play) {
-  return must(house::Stage::create(std::move(play)));
+std::unique_ptr<stage::Stage> stage_of(stage::Simulation simulation) {
+  return must(stage::Stage::create(std::move(simulation)));
 }
 
-std::unique_ptr<house::Stage> stage_of(const scene::Scene& scene) {
-  return stage_of(house::make_play(house::all_rooms(), scene));
+std::unique_ptr<stage::Stage> stage_of(const scene::Scene& scene) {
+  return stage_of(stage::make_simulation(rooms::all_registries(), scene));
 }
 
 std::unique_ptr<render::Renderer> renderer_of(const scene::Scene& scene) {
-  return must(
-      render::Renderer::create(scene, house::drawables(), house::all_rooms().get<render::Lights>().make));
+  return must(render::Renderer::create(scene, rooms::drawables(),
+                                       rooms::all_registries().get<render::Lights>().make));
 }
 
 double flip_between(const Image8& picture, const Image8& expected, const Image8& mask) {
@@ -74,7 +75,7 @@ Status run_parts(const BenchSetup& setup, std::span<const Part* const> parts, Re
   }
   if (const Status controls = report.controls(); !controls) failed(controls.errors());
   if (!errors.empty()) return errors;
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis::bench

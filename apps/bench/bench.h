@@ -11,7 +11,7 @@
 
 #include "base/image.h"
 #include "bench/report.h"
-#include "house/rooms.h"
+#include "rooms/rooms.h"
 #include "stage/stage.h"
 
 namespace parvis::bench {
@@ -48,14 +48,14 @@ struct BenchSetup {
   scene::Scene scene(const std::filesystem::path& script,
                      std::span<const std::filesystem::path> data_folders = {}) const;
   /// The same with its processes, running.
-  house::Play play(const std::filesystem::path& script,
-                   std::span<const std::filesystem::path> data_folders = {}) const;
+  stage::Simulation simulation(const std::filesystem::path& script,
+                               std::span<const std::filesystem::path> data_folders = {}) const;
 };
 
 /// A renderer of a running scene.
-std::unique_ptr<house::Stage> stage_of(house::Play play);
+std::unique_ptr<stage::Stage> stage_of(stage::Simulation simulation);
 /// The same of a scene that has no script.
-std::unique_ptr<house::Stage> stage_of(const scene::Scene& scene);
+std::unique_ptr<stage::Stage> stage_of(const scene::Scene& scene);
 /// A renderer of a scene as it is, with the drawables and the light of all rooms.
 std::unique_ptr<render::Renderer> renderer_of(const scene::Scene& scene);
 

@@ -78,7 +78,7 @@ Walk walked(const fs::path& script, const char* rate, int frames) {
 }
 
 /// The last frame as a window shows it.
-Image8 shown(const house::Stage& stage) {
+Image8 shown(const stage::Stage& stage) {
   const gl::Texture texture = gl::texture_2d(GL_RGBA8, full_picture.x, full_picture.y);
   const gl::Framebuffer framebuffer = gl::Framebuffer::create();
   glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
@@ -91,7 +91,7 @@ Image8 shown(const house::Stage& stage) {
 }
 
 /// FLIP of a frame that draws such a fraction of its pixels against one that draws all.
-double flip_of_lowered(house::Stage& stage, double fraction) {
+double flip_of_lowered(stage::Stage& stage, double fraction) {
   constexpr int settling_frames = 40;
   constexpr double rate = 10.0;
   const Camera camera = must(stage.camera("walk 1"));

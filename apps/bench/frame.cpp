@@ -157,7 +157,7 @@ double flip_of(Mesh mirror, float radii, bool swaps_faces = false) {
 }
 
 /// Times whole frames of each method in alternating order; the medians.
-std::vector<Median> frame_times(house::Stage& stage, const Camera& camera, int cars, int repeats,
+std::vector<Median> frame_times(stage::Stage& stage, const Camera& camera, int cars, int repeats,
                                 Report& report) {
   const auto methods = judged_methods(stage, {{"none", usual("none")},
                                               {"rerendered", usual("rerendered_cube_map")},
@@ -180,7 +180,7 @@ std::vector<Median> frame_times(house::Stage& stage, const Camera& camera, int c
 }
 
 /// Cars that are hidden by what stands before them: how many are culled, and whether one is that has a pixel.
-void measure_occlusion(house::Stage& stage, std::size_t views, Report& report) {
+void measure_occlusion(stage::Stage& stage, std::size_t views, Report& report) {
   render::CullingCheck all;
   for (const Camera& camera : street_views(stage.scene(), views, 1.6f, 0.0f, full_picture)) {
     stage.renderer().begin_frame(stage.scene(), camera);

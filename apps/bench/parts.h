@@ -28,8 +28,8 @@ Measured measure_sceaux, measure_courtyard, measure_filling, measure_drawings;  
 Measured measure_reconstruction, measure_display, measure_maize, measure_distribution;  // trees/
 
 /// Parts of reflections/maps.cpp, on a stage of the paper's city or on its scene.
-void measure_motion(house::Stage& stage, const BenchSetup& setup, Report& report);
-void measure_budget(house::Stage& stage, const BenchSetup& setup, Report& report);
+void measure_motion(stage::Stage& stage, const BenchSetup& setup, Report& report);
+void measure_budget(stage::Stage& stage, const BenchSetup& setup, Report& report);
 void measure_body_count(const scene::Scene& city, const BenchSetup& setup, Report& report);
 void measure_city_size(const scene::Scene& city, const BenchSetup& setup, Report& report);
 

@@ -20,10 +20,10 @@ constexpr glm::dvec2 middle(12.4, 3.05);
 
 /// A session on a running scene that outlives it.
 struct Table {
-  house::Play& play;
-  design::SceneSurfaces surfaces{play.scene};
+  stage::Simulation& simulation;
+  design::SceneSurfaces surfaces{simulation.scene};
   design::Session session = must(design::Session::open(
-      play.scene, play.live(), "",
+      simulation.scene, simulation.live(), "",
       [this](glm::dvec2 at, const design::Names& without) { return surfaces.resting_height(at, without); }));
 };
 
@@ -35,7 +35,7 @@ Camera eye_at(glm::dvec3 place) {
 }
 
 /// A mask of the pixels in which the picks of an object alone differ from the rest.
-Image8 mask_of(house::Stage& stage, const Camera& camera, int object) {
+Image8 mask_of(stage::Stage& stage, const Camera& camera, int object) {
   const render::ObjectPicture picked = stage.renderer().pick(camera, width, height, false);
   Image8 mask(width, height, 1);
   for (std::size_t i = 0; i < mask.pixels.size(); ++i)
@@ -50,13 +50,13 @@ int object_named(const scene::Scene& scene, const std::string& name) {
 }
 
 /// Drags a bench about a place of the street, its picture drawn whole before and after.
-void measure_drag(house::Stage& stage, Table& table, bool is_quick, Report& report) {
+void measure_drag(stage::Stage& stage, Table& table, bool is_quick, Report& report) {
   const int repetitions = is_quick ? 12 : 50;
   const design::Kind* const kind = design::find_kind(stage.scene(), "bench_stone");
   if (!kind) fail("the catalogue has no stone bench");
   const double ground = table.surfaces.resting_height(middle);
   const Camera camera = eye_at({middle, ground});
-  design::Preview preview(stage.scene(), table.play.live());
+  design::Preview preview(stage.scene(), table.simulation.live());
   const auto hold_at = [&](glm::dvec2 at) {
     const design::Command insert = design::Insert{"bench_stone", glm::dvec3(at, design::rests)};
     must(preview.show(must(design::changes_of(table.session.view(), insert)), table.session.design()));
@@ -79,8 +79,9 @@ void measure_drag(house::Stage& stage, Table& table, bool is_quick, Report& repo
   const Image8 beside = stage.picture();
   must(
       table.session.run(fmt::format("insert bench_stone {},{} name bench_of_the_bench", middle.x, middle.y)));
-  must(stage.play().live().refresh(stage.play().scene).empty() ? Status(Done{})
-                                                               : Status(error("it cannot be built")));
+  must(stage.simulation().live().refresh(stage.simulation().scene).empty()
+           ? Status(Ok{})
+           : Status(error("it cannot be built")));
   stage.draw(camera, width, height);
   const Image8 whole = stage.whole_picture();
   const Image8 mask = mask_of(stage, camera, object_named(stage.scene(), "bench_of_the_bench"));
@@ -88,15 +89,15 @@ void measure_drag(house::Stage& stage, Table& table, bool is_quick, Report& repo
   report.add("drag_picture_flip_3_cm_beside", flip_between(beside, whole, mask));
 }
 
-void measure_insertion(house::Stage& stage, Table& table, bool is_quick, Report& report) {
+void measure_insertion(stage::Stage& stage, Table& table, bool is_quick, Report& report) {
   const Camera camera = eye_at({middle, table.surfaces.resting_height(middle)});
-  design::Preview preview(stage.scene(), table.play.live());
+  design::Preview preview(stage.scene(), table.simulation.live());
   std::vector<double> held_ms, whole_ms;
   for (int i = 0; i < (is_quick ? 8 : 50); ++i) {
     const std::string name = fmt::format("bollard_{}_of_the_bench", i);
     // As the window does: what was placed is shown over the picture that is kept; its shadow follows.
     const auto show = [&] {
-      const scene::Node* node = stage.play().live().find(name);
+      const scene::Node* node = stage.simulation().live().find(name);
       must(preview.show(node ? design::Changes{{*node, *node, {}}} : design::Changes{},
                         table.session.design()));
       stage.draw_held(camera, width, height, preview.what_stays(), preview.scene());
@@ -146,7 +147,7 @@ void measure_precision(Table& table, Report& report) {
 void measure_replay(const BenchSetup& setup, Report& report) {
   const std::filesystem::path script = setup.folder / "replay.xp", journal = setup.folder / "replay.journal";
   must(write_file(script, "camera(name=eye)\n"));
-  house::Play play = setup.play(script);
+  stage::Simulation simulation = setup.simulation(script);
   Table table{play};
   must(table.session.keep_journal(journal));
   const std::string empty = table.session.script();
@@ -159,7 +160,7 @@ void measure_replay(const BenchSetup& setup, Report& report) {
   const bool is_undone = table.session.script() == empty;
   for (int i = 0; i < steps; ++i) must(table.session.redo());
   const bool is_redone = table.session.script() == made;
-  house::Play again = setup.play(script);
+  stage::Simulation again = setup.simulation(script);
   Table other{again};
   must(other.session.keep_journal(journal));
   const bool is_replayed = other.session.script() == made;
@@ -180,7 +181,7 @@ void measure_kills(const BenchSetup& setup, Report& report) {
     if (pipe(pipes) != 0) fail("no pipe can be made");
     const pid_t child = fork();
     if (child == 0) {
-      house::Play play = setup.play(script);
+      stage::Simulation simulation = setup.simulation(script);
       Table table{play};
       if (!table.session.keep_journal(journal)) _exit(1);
       for (int i = 0;; ++i)
@@ -197,7 +198,7 @@ void measure_kills(const BenchSetup& setup, Report& report) {
     while (read(pipes[0], &byte, 1) == 1) ++acknowledged;
     close(pipes[0]);
     waitpid(child, nullptr, 0);
-    house::Play play = setup.play(script);
+    stage::Simulation simulation = setup.simulation(script);
     Table table{play};
     lost_without_journal += acknowledged - int(table.session.objects().size());
     must(table.session.keep_journal(journal));
@@ -210,8 +211,8 @@ void measure_kills(const BenchSetup& setup, Report& report) {
 }  // namespace
 
 void measure_plan(const BenchSetup& setup, Report& report) {
-  const std::unique_ptr<house::Stage> stage = stage_of(setup.play(setup.city() / "paper.xp"));
-  Table table{stage->play()};
+  const std::unique_ptr<stage::Stage> stage = stage_of(setup.simulation(setup.city() / "paper.xp"));
+  Table table{stage->simulation()};
   measure_drag(*stage, table, setup.is_quick, report);
   measure_insertion(*stage, table, setup.is_quick, report);
   measure_precision(table, report);

@@ -134,7 +134,7 @@ scene::Scene make_scene(Report& report) {
   Random random(12);
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   for (int i = 0; i < Grove::rows * Grove::columns; ++i) {
-    auto shape = must(vegetation::shared_plant(scene.data<vegetation::PlantShelf>(),
+    auto shape = must(vegetation::shared_plant(scene.data<vegetation::PlantCache>(),
                                                {oak, oak->height_m, 0.0f, std::uint64_t(1 + i % shapes)}));
     fewest = std::min(fewest, shape->triangle_count());
     const int row = i / Grove::columns;
@@ -205,9 +205,9 @@ std::unique_ptr<Grove> Grove::create(Report& report) {
     return std::unique_ptr<render::Drawable>(std::move(counted));
   };
   drawables.add(std::move(kind));
-  drawables.furnish(grove->scene_);
-  grove->renderer_ =
-      must(render::Renderer::create(grove->scene_, drawables, house::all_rooms().get<render::Lights>().make));
+  drawables.attach(grove->scene_);
+  grove->renderer_ = must(
+      render::Renderer::create(grove->scene_, drawables, rooms::all_registries().get<render::Lights>().make));
   return grove;
 }
 

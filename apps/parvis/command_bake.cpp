@@ -22,21 +22,21 @@ Status bake(BakeArguments arguments) {
   if (!context) return context.errors();
   std::vector<std::string> states = arguments.scenarios;
   if (states.empty()) states = {"base"};
-  house::Baking baking(house::all_rooms(), *processes);
+  stage::Baking baking(rooms::all_registries(), *processes);
   for (std::size_t i = 0; i < states.size(); ++i) {
     arguments.scenarios = {states[i]};
-    const Result<house::Play> play = arguments.open_play();
-    if (!play) return play.errors();
-    if (Status status = baking.bake(play->scene, arguments.plan); !status) return status;
-    if (i + 1 == states.size()) baking.forget_other_states(play->scene);
+    const Result<stage::Simulation> simulation = arguments.open_simulation();
+    if (!simulation) return simulation.errors();
+    if (Status status = baking.bake(simulation->scene, arguments.plan); !status) return status;
+    if (i + 1 == states.size()) baking.forget_other_states(simulation->scene);
   }
   processes->leave();
-  return Done{};
+  return Ok{};
 }
 
 std::string names_of_steps() {
   std::vector<std::string> names;
-  for (const render::BakeStep& step : house::all_rooms().get<render::BakeSteps>().all())
+  for (const render::BakeStep& step : rooms::all_registries().get<render::BakeSteps>().all())
     names.push_back(step.name);
   return fmt::format("{}", fmt::join(names, ", "));
 }

@@ -5,9 +5,9 @@
 #include "commands.h"
 #include "formats/gltf/gltf_writer.h"
 #include "formats/readers/readers.h"
-#include "house/rooms.h"
 #include "places/car_bodies/car_copy.h"
 #include "places/car_bodies/car_script.h"
+#include "rooms/rooms.h"
 
 namespace parvis {
 namespace {
@@ -18,7 +18,7 @@ struct CarArguments {
 
 Result<scene::Model> read(const std::filesystem::path& file) {
   Errors warnings;
-  Result<scene::Model> model = house::all_rooms().get<formats::Readers>().read(file, {}, warnings);
+  Result<scene::Model> model = rooms::all_registries().get<formats::Readers>().read(file, {}, warnings);
   for (const Error& warning : warnings) fmt::print(stderr, "warning: {}\n", to_string(warning));
   return model;
 }
@@ -39,7 +39,7 @@ void print_size(const scene::Model& model, const std::filesystem::path& file) {
 }
 
 Status expect_free(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) return Done{};
+  if (!std::filesystem::exists(file)) return Ok{};
   return error("{} is there already; remove it or name another file", file.string());
 }
 
@@ -79,7 +79,7 @@ Status propose_car(const CarArguments& arguments) {
     const auto script = car_bodies::car_script(*model, arguments.body.filename().generic_string());
     if (!script) return script.errors();
     fmt::print("{}", *script);
-    return Done{};
+    return Ok{};
   }
   if (Status status = expect_free(arguments.output); !status) return status;
   const std::string file =

@@ -59,18 +59,19 @@ std::uint64_t state_of(const scene::Scene& scene) {
 }
 
 /// Warns of scenarios that change nothing: a planner would show the same picture twice.
-Status check_scenarios(house::Play& play) {
-  const std::string begins = play.live().scenario();
-  if (Status status = play.live().choose(play.scene, ""); !status) return status;
-  const std::uint64_t base = state_of(play.scene);
-  for (const scene::Node* scenario : play.live().scenarios()) {
-    if (Status status = play.live().choose(play.scene, scenario->text("name")); !status) return status;
-    if (state_of(play.scene) == base)
+Status check_scenarios(stage::Simulation& simulation) {
+  const std::string begins = simulation.live().scenario();
+  if (Status status = simulation.live().choose(simulation.scene, ""); !status) return status;
+  const std::uint64_t base = state_of(simulation.scene);
+  for (const scene::Node* scenario : simulation.live().scenarios()) {
+    if (Status status = simulation.live().choose(simulation.scene, scenario->text("name")); !status)
+      return status;
+    if (state_of(simulation.scene) == base)
       fmt::print(stderr, "warning: {}\n",
                  to_string(error_at(scenario->where, "scenario \"{}\" changes nothing that is to be seen",
                                     scenario->text("name"))));
   }
-  return play.live().choose(play.scene, begins);
+  return simulation.live().choose(simulation.scene, begins);
 }
 
 /// The account of each model file once, in the order of the scene's objects.
@@ -85,34 +86,35 @@ std::vector<const scene::FileAccount*> accounts_of(const scene::Scene& scene) {
 }
 
 Status check(CheckArguments& arguments) {
-  const scene::NodeRegistry& registry = house::node_registry();
+  const scene::NodeRegistry& registry = rooms::node_registry();
   if (arguments.wants_reference) {
     fmt::print("{}", scene::scene_reference(registry));
-    return Done{};
+    return Ok{};
   }
   if (arguments.wants_schema) {
     fmt::print("{}", scene::schema_json(registry));
-    return Done{};
+    return Ok{};
   }
   if (arguments.scene.empty()) return error("name a scene, or ask for --reference or --schema");
   if (Status status = describe_bare_file(arguments.scene, arguments.data); !status) return status.errors();
   // As every command opens it, so that all warn of the same.
-  Result<house::Play> play = house::open_play(house::all_rooms(), arguments.scene, arguments.data);
-  if (!play) return play.errors();
-  if (Status status = check_scenarios(*play); !status) return status;
-  const scene::Scene& scene = play->scene;
+  Result<stage::Simulation> simulation =
+      stage::open_simulation(rooms::all_registries(), arguments.scene, arguments.data);
+  if (!simulation) return simulation.errors();
+  if (Status status = check_scenarios(*simulation); !status) return status;
+  const scene::Scene& scene = simulation->scene;
   const std::vector<const scene::FileAccount*> accounts = accounts_of(scene);
   if (arguments.wants_json) {
     fmt::print("{}\n", formats::accounts_json(accounts));
-    return Done{};
+    return Ok{};
   }
   fmt::print("{}: right. {} objects, {} triangles that stand still, {} lanes, {} vehicles, {} cameras\n",
              arguments.scene.string(), scene.objects.size(), scene.static_triangle_count(),
              scene.roads.lanes.size(), scene.data<traffic::TrafficDemand>().vehicles, scene.cameras.size());
   for (const scene::FileAccount* account : accounts) fmt::print("{}", account->text());
   if (arguments.wants_triangles) print_triangles(scene);
-  print_states(play->live());
-  return Done{};
+  print_states(simulation->live());
+  return Ok{};
 }
 
 }  // namespace

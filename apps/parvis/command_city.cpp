@@ -17,7 +17,7 @@ Status write_city(const CityArguments& arguments) {
   if (Status status = write(arguments.folder, arguments.seed); !status) return status;
   fmt::print("{} is written; see it with: parvis view \"{}\"\n", arguments.name,
              (arguments.folder / (arguments.name + ".xp")).string());
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

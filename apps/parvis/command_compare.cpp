@@ -25,7 +25,7 @@ Status compare(const CompareArguments& arguments) {
   if (!difference) return difference.errors();
   fmt::print("FLIP {:.4f}\nPSNR {:.2f} dB\nSSIM {:.4f}\n", difference->flip, difference->psnr,
              difference->ssim);
-  if (arguments.map.empty()) return Done{};
+  if (arguments.map.empty()) return Ok{};
   return write_image(arguments.map, reference::heat_map(difference->flip_map));
 }
 

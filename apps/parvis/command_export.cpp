@@ -33,17 +33,17 @@ Status write_scene(const ExportArguments& arguments) {
   if (arguments.output.extension() != ".glb")
     return error("{}: a scene is written as .glb", arguments.output.string());
   if (Status status = arguments.expect_one_scenario(); !status) return status;
-  const Result<house::Play> play = arguments.open_play();
-  if (!play) return play.errors();
-  const Result<std::vector<const scene::Object*>> objects = chosen_objects(arguments, play->scene);
+  const Result<stage::Simulation> simulation = arguments.open_simulation();
+  if (!simulation) return simulation.errors();
+  const Result<std::vector<const scene::Object*>> objects = chosen_objects(arguments, simulation->scene);
   if (!objects) return objects.errors();
   std::vector<scene::NamedCamera> cameras;
-  for (const scene::NamedCamera& camera : play->scene.cameras)
-    if (const Result<Camera> now = play->scene.camera_now(camera))
+  for (const scene::NamedCamera& camera : simulation->scene.cameras)
+    if (const Result<Camera> now = simulation->scene.camera_now(camera))
       cameras.push_back({camera.name, *now, "", glm::vec3(0.0f)});
   if (Status status = scene::write_gltf(arguments.output, *objects, cameras); !status) return status;
   fmt::print("{}: {} objects, {} cameras\n", arguments.output.string(), objects->size(), cameras.size());
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ Status format_one(const std::filesystem::path& script, bool only_checks) {
   const Result<scene::ScriptNode> tree = scene::parse_script_file(*text, script.string());
   if (!tree) return tree.errors();
   const std::string formatted = scene::format_script(*tree);
-  if (formatted == *text) return Done{};
+  if (formatted == *text) return Ok{};
   if (only_checks)
     return error_at({script.string()}, "is not formatted; run parvis format \"{}\"", script.string());
   // The user may name a link: it is the script that it points to.
@@ -32,7 +32,7 @@ Status format(const FormatArguments& arguments) {
     if (const Status status = format_one(script, arguments.only_checks); !status)
       errors.insert(errors.end(), status.errors().begin(), status.errors().end());
   if (!errors.empty()) return errors;
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

@@ -55,24 +55,24 @@ Status run_noise(NoiseArguments arguments) {
   if (!arguments.area.empty())
     arguments.options.area =
         glm::dvec4(arguments.area[0], arguments.area[1], arguments.area[2], arguments.area[3]);
-  const Result<house::Play> play = arguments.scene.open_play();
-  if (!play) return play.errors();
-  const Result<noise::NoiseMap> map = noise_of(arguments, play->scene);
+  const Result<stage::Simulation> simulation = arguments.scene.open_simulation();
+  if (!simulation) return simulation.errors();
+  const Result<noise::NoiseMap> map = noise_of(arguments, simulation->scene);
   if (!map) return map.errors();
-  if (Status status = noise::write_noise(arguments.output, *map, play->scene); !status) return status;
+  if (Status status = noise::write_noise(arguments.output, *map, simulation->scene); !status) return status;
   print_noise(arguments, *map);
-  if (arguments.against.empty()) return Done{};
+  if (arguments.against.empty()) return Ok{};
 
   NoiseArguments before = arguments;
   before.scene.scenarios = {arguments.against};
-  const Result<house::Play> other = before.scene.open_play();
+  const Result<stage::Simulation> other = before.scene.open_simulation();
   if (!other) return other.errors();
   const Result<noise::NoiseMap> other_map = noise_of(before, other->scene);
   if (!other_map) return other_map.errors();
   if (Status status = noise::write_difference(arguments.output, *map, *other_map); !status) return status;
   fmt::print("{}_difference.png, .csv: less the levels of scenario \"{}\"\n", arguments.output.string(),
              arguments.against);
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

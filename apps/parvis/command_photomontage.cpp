@@ -59,8 +59,9 @@ Result<std::optional<Moment>> moment_of(const MontageArguments& arguments, const
 }
 
 /// Sets the scene's sun and sky; false where the scene has another sun than dayLight's.
-Result<bool> light_as_of(house::Play& play, const Moment& moment, const std::optional<double>& clock_h) {
-  scene::LiveScene& live = play.live();
+Result<bool> light_as_of(stage::Simulation& simulation, const Moment& moment,
+                         const std::optional<double>& clock_h) {
+  scene::LiveScene& live = simulation.live();
   const scene::Node* day = live.find("%dayLight");
   if (!day) return false;
   const auto hold = [&](const std::string& attribute, const std::string& value) {
@@ -72,8 +73,8 @@ Result<bool> light_as_of(house::Play& play, const Moment& moment, const std::opt
   if (status) status = hold("timeOfDay", fmt::format("{}", moment.hour + moment.minute / 60.0));
   if (status && clock_h) status = hold("standardMeridian", fmt::format("{}", *clock_h));
   if (!status) return status.errors();
-  if (Errors errors = live.refresh(play.scene); !errors.empty()) return errors;
-  play.settle();
+  if (Errors errors = live.refresh(simulation.scene); !errors.empty()) return errors;
+  simulation.settle();
   return true;
 }
 
@@ -118,7 +119,7 @@ Result<photographs::Photograph> clicked_camera(const MontageArguments& arguments
 /// The photograph's camera by --cameras, --points or --camera, with the size of the picture.
 Result<photographs::Photograph> photograph_camera(const MontageArguments& arguments,
                                                   const photographs::PictureHeader& header,
-                                                  const house::Play& play) {
+                                                  const stage::Simulation& simulation) {
   if (!arguments.cameras.empty() && !arguments.points.empty())
     return error("--cameras and --points each give the photograph's camera; give one of them");
   if (!arguments.points.empty()) return clicked_camera(arguments, header);
@@ -128,7 +129,7 @@ Result<photographs::Photograph> photograph_camera(const MontageArguments& argume
         "the photograph's camera is not given: --cameras FILE (of COLMAP and others), --points FILE (six "
         "points "
         "clicked in it), or --camera NAME (of the scene)");
-  const Result<Camera> named = play.camera(arguments.scene.camera);
+  const Result<Camera> named = simulation.camera(arguments.scene.camera);
   if (!named) return named.errors();
   if (named->parallel || named->off_axis)
     return error("--camera {}: a plan or a display wall takes no photograph", arguments.scene.camera);
@@ -137,8 +138,9 @@ Result<photographs::Photograph> photograph_camera(const MontageArguments& argume
 }
 
 Result<photomontage::MontageJob> job_of(const MontageArguments& arguments,
-                                        const photographs::PictureHeader& header, const house::Play& play) {
-  Result<photographs::Photograph> found = photograph_camera(arguments, header, play);
+                                        const photographs::PictureHeader& header,
+                                        const stage::Simulation& simulation) {
+  Result<photographs::Photograph> found = photograph_camera(arguments, header, simulation);
   if (!found) return found.errors();
   photomontage::MontageJob job;
   job.photograph = *std::move(found);
@@ -164,7 +166,7 @@ Result<photomontage::MontageJob> job_of(const MontageArguments& arguments,
     for (std::size_t i = 0; i < job.in_front.pixels.size(); ++i)
       job.in_front.pixels[i] = mask->pixels[i * std::size_t(mask->channels)];
   }
-  const std::vector<const scene::Node*> designs = design::designs_of(play.live());
+  const std::vector<const scene::Node*> designs = design::designs_of(simulation.live());
   if (designs.empty())
     return error("the scene has no design; place one by parvis plan or parvis view --plan");
   job.design = arguments.design.empty() ? designs.front()->text("name") : arguments.design;
@@ -183,7 +185,7 @@ std::string counted(const std::vector<design::PlacedObject>& objects) {
 
 Status write_montage_report(const MontageArguments& arguments, const photomontage::MontageJob& job,
                             const photomontage::Montage& montage, const std::string& caption) {
-  if (arguments.report.empty()) return Done{};
+  if (arguments.report.empty()) return Ok{};
   const glm::dvec3 eye = job.photograph.position_in_world(), forward = job.photograph.forward_in_world();
   const nlohmann::json report{{"photograph", job.photograph.name},
                               {"design", job.design},
@@ -203,16 +205,16 @@ Status make_photomontage(const MontageArguments& arguments) {
   std::vector<std::filesystem::path> files{arguments.photograph, arguments.output};
   for (const std::filesystem::path& each : {arguments.in_front, arguments.report})
     if (!each.empty()) files.push_back(each);
-  if (Status status = house::check_different(files); !status) return status;
+  if (Status status = stage::check_different(files); !status) return status;
   const Result<photographs::PictureHeader> header = photographs::read_picture_header(arguments.photograph);
   if (!header) return header.errors();
   const Result<std::optional<Moment>> moment = moment_of(arguments, header->taken);
   if (!moment) return moment.errors();
-  Result<house::Play> play = arguments.scene.open_play();
-  if (!play) return play.errors();
+  Result<stage::Simulation> simulation = arguments.scene.open_simulation();
+  if (!simulation) return simulation.errors();
   std::string sun = "the sun is the scene's";
   if (*moment) {
-    const Result<bool> is_lit = light_as_of(*play, **moment, arguments.clock_h);
+    const Result<bool> is_lit = light_as_of(*simulation, **moment, arguments.clock_h);
     if (!is_lit) return is_lit.errors();
     if (*is_lit)
       sun = fmt::format("sun of {:04}-{:02}-{:02}, {:02}:{:02}", (*moment)->year, (*moment)->month,
@@ -224,12 +226,13 @@ Status make_photomontage(const MontageArguments& arguments) {
                "warning: the photograph does not say when it was taken, so that the sun stays the scene's; "
                "--date and --hour say it\n");
   }
-  const Result<photomontage::MontageJob> job = job_of(arguments, *header, *play);
+  const Result<photomontage::MontageJob> job = job_of(arguments, *header, *simulation);
   if (!job) return job.errors();
-  const std::string objects = counted(design::placed_objects(play->scene, play->live(), job->design));
+  const std::string objects =
+      counted(design::placed_objects(simulation->scene, simulation->live(), job->design));
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(*std::move(play));
+  Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(*std::move(simulation));
   if (!stage) return stage.errors();
   Result<photomontage::Montage> montage = photomontage::make_montage(**stage, *job);
   if (!montage) return montage.errors();

@@ -57,25 +57,26 @@ void list_objects(const design::Session& session) {
 }
 
 /// Whether the scene has a design of that name. The error names those that it has.
-Status expect_design(const house::Play& play, const std::string& name) {
+Status expect_design(const stage::Simulation& simulation, const std::string& name) {
   std::vector<std::string> names;
-  for (const scene::Node* node : design::designs_of(play.live())) names.push_back(node->text("name"));
-  if (std::ranges::find(names, name) != names.end()) return Done{};
+  for (const scene::Node* node : design::designs_of(simulation.live())) names.push_back(node->text("name"));
+  if (std::ranges::find(names, name) != names.end()) return Ok{};
   return error("the scene has no design \"{}\"{}", name.substr(0, 40), names_that_exist(name, names));
 }
 
 /// Prints each difference that turns the other design into this one, and their counts.
-Status list_differences(const design::Session& session, const house::Play& play, const std::string& other) {
-  if (Status status = expect_design(play, other); !status) return status;
+Status list_differences(const design::Session& session, const stage::Simulation& simulation,
+                        const std::string& other) {
+  if (Status status = expect_design(simulation, other); !status) return status;
   std::array<int, 4> counts{};
-  for (const design::Difference& each :
-       design::differences(design::placed_objects(play.scene, play.live(), other), session.objects())) {
+  for (const design::Difference& each : design::differences(
+           design::placed_objects(simulation.scene, simulation.live(), other), session.objects())) {
     fmt::print("{}\n", design::line_of(each));
     ++counts[std::size_t(each.how)];
   }
   fmt::print("from \"{}\" to \"{}\": {} added, {} removed, {} moved, {} changed\n", other, session.name(),
              counts[0], counts[1], counts[2], counts[3]);
-  return Done{};
+  return Ok{};
 }
 
 /// The lines of a file; # begins a comment.
@@ -97,17 +98,18 @@ Result<std::vector<std::pair<std::string, int>>> lines_of(const std::filesystem:
 }
 
 /// Models of --kind.
-Status take_kinds(const Arguments& arguments, const house::Play& play, design::Session& session) {
+Status take_kinds(const Arguments& arguments, const stage::Simulation& simulation, design::Session& session) {
   const std::map<std::string, double> units{
       {"", 0.0}, {"m", design::metre}, {"cm", design::centimetre}, {"mm", design::millimetre}};
   for (const std::filesystem::path& file : arguments.kind_files) {
-    const Result<design::OwnKind> kind = design::import_kind(play.house->get<formats::Readers>(), play.scene,
-                                                             file, units.at(arguments.kind_unit));
+    const Result<design::OwnKind> kind =
+        design::import_kind(simulation.registries->get<formats::Readers>(), simulation.scene, file,
+                            units.at(arguments.kind_unit));
     if (!kind) return kind.errors();
     if (Status status = session.run(design::Command(kind->command)); !status) return status;
     fmt::print("{}\n", kind->note);
   }
-  return Done{};
+  return Ok{};
 }
 
 Status run_commands(const Arguments& arguments, design::Session& session) {
@@ -121,25 +123,25 @@ Status run_commands(const Arguments& arguments, design::Session& session) {
   for (const std::string& command : arguments.commands)
     if (Status status = session.run(command); !status)
       return error("--do \"{}\": {}", command, status.errors().front().message);
-  return Done{};
+  return Ok{};
 }
 
 Status read_centre(const std::string& text, plan_drawing::Sheet& sheet) {
-  if (text.empty()) return Done{};
+  if (text.empty()) return Ok{};
   const std::vector<double> numbers = scene::parse_numbers(text);
   if (numbers.size() != 2) return error("--centre {}: expected two numbers, as 12.5,-3", text);
   sheet.centre = glm::dvec2(numbers[0], numbers[1]);
-  return Done{};
+  return Ok{};
 }
 
 /// The scene with its designs on paper.
-Status write_drawings(const Arguments& arguments, const house::Play& play) {
-  if (arguments.pdf.empty() && arguments.dxf.empty() && arguments.csv.empty()) return Done{};
+Status write_drawings(const Arguments& arguments, const stage::Simulation& simulation) {
+  if (arguments.pdf.empty() && arguments.dxf.empty() && arguments.csv.empty()) return Ok{};
   plan_drawing::Sheet sheet = arguments.sheet;
   if (Status status = read_centre(arguments.centre, sheet); !status) return status;
-  const plan_drawing::ScenePlan plan =
-      plan_drawing::plan_of(play.scene, design::placed_objects(play.scene, play.live(), "", true),
-                            design::measurements(play.live(), "", true));
+  const plan_drawing::ScenePlan plan = plan_drawing::plan_of(
+      simulation.scene, design::placed_objects(simulation.scene, simulation.live(), "", true),
+      design::measurements(simulation.live(), "", true));
   if (sheet.title.empty()) sheet.title = arguments.scene.scene.stem().string();
   if (!arguments.pdf.empty())
     if (Status status = plan_drawing::write_plan_pdf(arguments.pdf, plan, sheet); !status) return status;
@@ -150,11 +152,11 @@ Status write_drawings(const Arguments& arguments, const house::Play& play) {
   fmt::print("{} lines, {} trees, {} placed objects\n", plan.lines.size(), plan.trees.size(),
              plan.placed.size());
   for (const std::string& note : plan.left_out) fmt::print("not on the plan: {}\n", note);
-  return Done{};
+  return Ok{};
 }
 
 /// The sheet that compares the design with another.
-Status write_council_of(const Arguments& arguments, const design::Session& session, house::Stage& stage) {
+Status write_council_of(const Arguments& arguments, const design::Session& session, stage::Stage& stage) {
   CouncilOptions options = arguments.council;
   options.before = arguments.compared;
   if (options.before == session.name())
@@ -174,11 +176,11 @@ bool asks_for_nothing(const Arguments& a) {
                              [](const std::filesystem::path* file) { return file->empty(); });
 }
 
-/// `stage`: where pictures are asked for, the one of the play.
-Status work_on(const Arguments& arguments, house::Play& play, house::Stage* stage) {
-  if (arguments.lists_kinds) list_kinds(play.scene);
-  Result<design::Session> session =
-      design::Session::open(play.scene, play.live(), arguments.design, design::resting_heights(play.scene));
+/// `stage`: where pictures are asked for, the one of the simulation.
+Status work_on(const Arguments& arguments, stage::Simulation& simulation, stage::Stage* stage) {
+  if (arguments.lists_kinds) list_kinds(simulation.scene);
+  Result<design::Session> session = design::Session::open(
+      simulation.scene, simulation.live(), arguments.design, design::resting_heights(simulation.scene));
   if (!session) return session.errors();
   if (arguments.keeps_journal) {
     const Result<std::string> restored =
@@ -192,22 +194,23 @@ Status work_on(const Arguments& arguments, house::Play& play, house::Stage* stag
     if (Status status = design::read_json(*text, arguments.import_json.string(), *session); !status)
       return status;
   }
-  if (Status status = take_kinds(arguments, play, *session); !status) return status;
+  if (Status status = take_kinds(arguments, simulation, *session); !status) return status;
   if (Status status = run_commands(arguments, *session); !status) return status;
   if (arguments.lists_objects) list_objects(*session);
   if (!arguments.compared.empty())
-    if (Status status = list_differences(*session, play, arguments.compared); !status) return status;
+    if (Status status = list_differences(*session, simulation, arguments.compared); !status) return status;
   if (!arguments.json.empty())
-    if (Status status = write_file(arguments.json, design::json_of(play.scene, *session)); !status)
+    if (Status status = write_file(arguments.json, design::json_of(simulation.scene, *session)); !status)
       return status;
   if (!arguments.output.empty()) {
-    if (Status status = design::save(*session, play.scene.file, arguments.output); !status) return status;
+    if (Status status = design::save(*session, simulation.scene.file, arguments.output); !status)
+      return status;
     fmt::print("{}: design \"{}\" with {} objects\n", arguments.output.string(), session->name(),
                session->objects().size());
     if (Status status = session->note_saved(); !status) return status;
   }
-  if (Status status = write_drawings(arguments, play); !status) return status;
-  return stage ? write_council_of(arguments, *session, *stage) : Status(Done{});
+  if (Status status = write_drawings(arguments, simulation); !status) return status;
+  return stage ? write_council_of(arguments, *session, *stage) : Status(Ok{});
 }
 
 Status plan(const Arguments& arguments) {
@@ -221,13 +224,13 @@ Status plan(const Arguments& arguments) {
     if (arguments.compared.empty()) return error("--council needs two designs: --design NEW --compare OLD");
     const Result<gl::Context> context = gl::Context::create_headless();
     if (!context) return context.errors();
-    Result<std::unique_ptr<house::Stage>> stage = arguments.scene.open_stage();
+    Result<std::unique_ptr<stage::Stage>> stage = arguments.scene.open_stage();
     if (!stage) return stage.errors();
-    return work_on(arguments, (*stage)->play(), stage->get());
+    return work_on(arguments, (*stage)->simulation(), stage->get());
   }
-  Result<house::Play> play = arguments.scene.open_play();
-  if (!play) return play.errors();
-  return work_on(arguments, *play, nullptr);
+  Result<stage::Simulation> simulation = arguments.scene.open_simulation();
+  if (!simulation) return simulation.errors();
+  return work_on(arguments, *simulation, nullptr);
 }
 
 }  // namespace

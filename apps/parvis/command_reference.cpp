@@ -24,7 +24,7 @@ struct ReferenceArguments : SceneArguments {
   bool is_path_traced = false, all_cameras = false;
   std::vector<float> circle;  // target x y z, radius, eye above it, count
   float circle_fov_deg = 50.0f;
-  house::PhotographJob job;
+  stage::PhotographJob job;
 
   void add_photograph(CLI::App& command);
 };
@@ -41,14 +41,14 @@ Status write_traced(const ReferenceArguments& arguments, const reference::Traced
                               : write_image(output, shading::tone_mapped_picture(traced.radiance, exposure));
     if (!status) return status;
   }
-  return Done{};
+  return Ok{};
 }
 
 Status trace(const ReferenceArguments& arguments) {
   int width = 0, height = 0;
   std::vector<std::filesystem::path> files = arguments.outputs;
   if (!arguments.mask.empty()) files.push_back(arguments.mask);
-  if (Status status = house::check_different(files); !status) return status;
+  if (Status status = stage::check_different(files); !status) return status;
   if (Status status = arguments.read_size(width, height); !status) return status;
   if (Status status = arguments.expect_one_scenario(); !status) return status;
   if (arguments.cameras.size() > 1) return error("several cameras are for --path-traced only");
@@ -56,7 +56,7 @@ Status trace(const ReferenceArguments& arguments) {
   if (!processes) return processes.errors();
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  Result<std::unique_ptr<house::Stage>> stage = arguments.open_stage();
+  Result<std::unique_ptr<stage::Stage>> stage = arguments.open_stage();
   if (!stage) return stage.errors();
   const Result<Camera> camera = (*stage)->camera(arguments.cameras.empty() ? "" : arguments.cameras.front());
   if (!camera) return camera.errors();
@@ -65,15 +65,15 @@ Status trace(const ReferenceArguments& arguments) {
   if (processes->is_first())
     if (Status status = write_traced(arguments, traced, (*stage)->scene().exposure); !status) return status;
   processes->leave();
-  return Done{};
+  return Ok{};
 }
 
 /// The cameras that the user named, or all, or a circle; else the scene's first.
 Result<std::vector<scene::NamedCamera>> chosen_cameras(const ReferenceArguments& arguments,
-                                                       const house::Play& play, float aspect) {
+                                                       const stage::Simulation& simulation, float aspect) {
   std::vector<std::string> names = arguments.cameras;
   if (arguments.all_cameras)
-    for (const scene::NamedCamera& camera : play.scene.cameras) names.push_back(camera.name);
+    for (const scene::NamedCamera& camera : simulation.scene.cameras) names.push_back(camera.name);
   std::vector<scene::NamedCamera> cameras;
   if (!arguments.circle.empty()) {
     const std::vector<float>& c = arguments.circle;
@@ -81,7 +81,7 @@ Result<std::vector<scene::NamedCamera>> chosen_cameras(const ReferenceArguments&
     if (count != std::floor(count) || !(count >= 1.0f && count <= 1e6f))
       return error("--circle: a count of {}; expected a whole number of cameras, 1 at least", count);
     Result<std::vector<scene::NamedCamera>> circle =
-        house::circle_of_cameras({c[0], c[1], c[2]}, c[3], c[4], int(count),
+        stage::circle_of_cameras({c[0], c[1], c[2]}, c[3], c[4], int(count),
                                  vertical_fov(glm::radians(arguments.circle_fov_deg), aspect));
     if (!circle) return circle.errors();
     cameras = *std::move(circle);
@@ -89,7 +89,7 @@ Result<std::vector<scene::NamedCamera>> chosen_cameras(const ReferenceArguments&
     names.emplace_back();
   }
   for (const std::string& name : names) {
-    const Result<Camera> camera = play.camera(name);
+    const Result<Camera> camera = simulation.camera(name);
     if (!camera) return camera.errors();
     cameras.push_back({name, *camera, "", glm::vec3(0.0f)});
   }
@@ -97,24 +97,24 @@ Result<std::vector<scene::NamedCamera>> chosen_cameras(const ReferenceArguments&
 }
 
 Status photograph(const ReferenceArguments& arguments) {
-  house::PhotographJob job = arguments.job;
+  stage::PhotographJob job = arguments.job;
   if (Status status = arguments.read_size(job.width, job.height); !status) return status;
   if (Status status = arguments.expect_one_scenario(); !status) return status;
   const Result<machines::Processes> processes = machines::Processes::join();
   if (!processes) return processes.errors();
-  const Result<house::Play> play = arguments.open_play();
-  if (!play) return play.errors();
+  const Result<stage::Simulation> simulation = arguments.open_simulation();
+  if (!simulation) return simulation.errors();
   Result<std::vector<scene::NamedCamera>> cameras =
-      chosen_cameras(arguments, *play, float(job.width) / float(job.height));
+      chosen_cameras(arguments, *simulation, float(job.width) / float(job.height));
   if (!cameras) return cameras.errors();
   job.cameras = *std::move(cameras);
   job.pictures = arguments.outputs;
   job.options.samples_per_pixel = arguments.samples.value_or(photograph_samples);
   job.options.is_interrupted = &interruption();
   job.options.processes = *processes;
-  if (Status status = house::take_photographs(play->scene, job); !status) return status;
+  if (Status status = stage::take_photographs(simulation->scene, job); !status) return status;
   processes->leave();
-  return Done{};
+  return Ok{};
 }
 
 void ReferenceArguments::add_photograph(CLI::App& command) {

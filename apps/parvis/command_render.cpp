@@ -32,13 +32,13 @@ struct RenderArguments : SceneArguments {
   std::vector<std::string> probes;  ///< "X,Y": pixels of the picture
 };
 
-Status draw(house::Stage& stage, const RenderArguments& arguments, int width, int height) {
-  stage.play().settle();
+Status draw(stage::Stage& stage, const RenderArguments& arguments, int width, int height) {
+  stage.simulation().settle();
   const Result<Camera> camera = stage.camera(arguments.camera);
   if (!camera) return camera.errors();
   const int n = arguments.supersample;
   stage.draw(*camera, n * width, n * height);
-  return Done{};
+  return Ok{};
 }
 
 /// Frames of a film, and errors of what is none.
@@ -61,11 +61,11 @@ void add(ContentHash& hash, const scene::Nodes& nodes) {
 }
 
 /// All that the frames of a film depend on.
-std::uint64_t film_key(house::Stage& stage, const RenderArguments& arguments, int width, int height) {
+std::uint64_t film_key(stage::Stage& stage, const RenderArguments& arguments, int width, int height) {
   ContentHash hash;
   const scene::Scene& scene = stage.scene();
   hash.add(scene::scene_key(scene));
-  add(hash, stage.play().live().nodes());  // tours, paths and timers among them
+  add(hash, stage.simulation().live().nodes());  // tours, paths and timers among them
   scene.room_data.hash(hash, [](scene::DataRole) { return true; });
   for (const scene::NamedCamera& named : scene.cameras) {
     hash.add_text(named.name + "/" + named.follows);
@@ -84,23 +84,23 @@ std::uint64_t film_key(house::Stage& stage, const RenderArguments& arguments, in
 
 /// Methods whose picture depends on the frames before it: a process that draws some of them would draw
 /// others.
-Status expect_single_frames(const house::Stage& stage) {
+Status expect_single_frames(const stage::Stage& stage) {
   const methods::Settings& reflection = methods::settings(stage.scene());
   const Result<const methods::Method*> method =
-      stage.house().get<methods::Registry>().method_of(stage.scene());
+      stage.registries().get<methods::Registry>().method_of(stage.scene());
   if (!method) return method.errors();
   if ((*method)->needs_earlier_frames || reflection.budget_ms > 0.0f)
     return error(
         "reflection(method={}, budget_ms={}): each frame depends on those before it, so that a film cannot "
         "be divided among processes; render it without mpirun, or take another --reflection",
         (*method)->name, reflection.budget_ms);
-  return Done{};
+  return Ok{};
 }
 
 /// The sound at a film's camera.
 class FilmSound {
  public:
-  FilmSound(house::Stage& stage, int frames_per_second)
+  FilmSound(stage::Stage& stage, int frames_per_second)
       : stage_(stage),
         listening_(stage.scene(), sound::Output::stereo),
         moment_(std::size_t(sound::sample_rate / frames_per_second)) {}
@@ -110,9 +110,9 @@ class FilmSound {
     const Result<Camera> ears = stage_.camera(camera);
     if (!ears) return ears.errors();
     left_.resize(left_.size() + moment_, 0.0f), right_.resize(left_.size(), 0.0f);
-    listening_.hear(stage_.scene(), *ears, stage_.play().clock.time_s(), std::span(left_).last(moment_),
+    listening_.hear(stage_.scene(), *ears, stage_.simulation().clock.time_s(), std::span(left_).last(moment_),
                     std::span(right_).last(moment_));
-    return Done{};
+    return Ok{};
   }
   /// A file of all that was heard, 20 dB louder than `parvis sound` writes: 0 dBFS stands for 80 dB, or for
   /// the loudest moment.
@@ -127,43 +127,43 @@ class FilmSound {
   }
 
  private:
-  house::Stage& stage_;
+  stage::Stage& stage_;
   sound::Listening listening_;
   std::size_t moment_;
   std::vector<float> left_, right_;
 };
 
 /// A film whose frames several processes divide, or have begun to.
-Status render_divided_film(house::Stage& stage, const RenderArguments& arguments,
+Status render_divided_film(stage::Stage& stage, const RenderArguments& arguments,
                            const std::filesystem::path& output, int width, int height,
                            const machines::Processes& processes) {
   if (Status status = expect_single_frames(stage); !status) return status;
   const Result<int> frames = frames_of(arguments, output);
   if (!frames) return frames.errors();
   int now = 0;  // the frame that the scene has come to
-  house::FilmJob job;
+  stage::FilmJob job;
   job.output = output;
   job.width = width, job.height = height;
   job.frames_per_second = arguments.frames_per_second, job.frames = *frames;
   job.key = film_key(stage, arguments, width, height);
   job.is_interrupted = &interruption();
   job.draw = [&](int frame) -> Result<Image8> {
-    for (; now < frame; ++now) stage.play().advance(1.0 / arguments.frames_per_second);
+    for (; now < frame; ++now) stage.simulation().advance(1.0 / arguments.frames_per_second);
     if (Status status = draw(stage, arguments, width, height); !status) return status.errors();
     return reduced(stage.picture(), arguments.supersample);
   };
-  if (Status status = house::make_divided_film(job, processes); !status) return status;
-  for (; now < *frames; ++now) stage.play().advance(1.0 / arguments.frames_per_second);
-  return Done{};
+  if (Status status = stage::make_divided_film(job, processes); !status) return status;
+  for (; now < *frames; ++now) stage.simulation().advance(1.0 / arguments.frames_per_second);
+  return Ok{};
 }
 
-Status render_film(house::Stage& stage, const RenderArguments& arguments, const std::filesystem::path& output,
+Status render_film(stage::Stage& stage, const RenderArguments& arguments, const std::filesystem::path& output,
                    int width, int height, const machines::Processes& processes) {
   const std::atomic<bool>& is_interrupted = interruption();  // half a film is taken away, not left
-  const bool is_begun = std::filesystem::exists(house::frames_folder(output)) && expect_single_frames(stage);
+  const bool is_begun = std::filesystem::exists(stage::frames_folder(output)) && expect_single_frames(stage);
   if (processes.are_several() || is_begun)
     return render_divided_film(stage, arguments, output, width, height, processes);
-  Result<house::Film> film = house::Film::open(output, width, height, arguments.frames_per_second);
+  Result<stage::Film> film = stage::Film::open(output, width, height, arguments.frames_per_second);
   if (!film) return film.errors();
   const Result<int> frames = frames_of(arguments, output);
   if (!frames) return frames.errors();
@@ -179,7 +179,7 @@ Status render_film(house::Stage& stage, const RenderArguments& arguments, const 
     }
     if (sound)
       if (Status status = sound->hear(arguments.camera); !status) return status;
-    stage.play().advance(1.0 / arguments.frames_per_second);
+    stage.simulation().advance(1.0 / arguments.frames_per_second);
     progress.advance();
   }
   while (const auto picture = reader.rest())
@@ -203,45 +203,45 @@ Result<std::vector<glm::ivec2>> probed_pixels(const RenderArguments& arguments, 
 }
 
 /// Prints the values of the picture just drawn that --probe asks for.
-Status print_probes(const house::Stage& stage, const RenderArguments& arguments, int width, int height) {
+Status print_probes(const stage::Stage& stage, const RenderArguments& arguments, int width, int height) {
   const Result<std::vector<glm::ivec2>> pixels = probed_pixels(arguments, width, height);
   if (!pixels) return pixels.errors();
   const Result<Camera> camera = stage.camera(arguments.camera);
   if (!camera) return camera.errors();
   for (const glm::ivec2 pixel : *pixels)
     fmt::print("{},{}: {}\n", pixel.x, pixel.y,
-               to_string(house::probe(stage.scene(), *camera, {width, height}, pixel), stage.scene()));
-  return Done{};
+               to_string(stage::probe(stage.scene(), *camera, {width, height}, pixel), stage.scene()));
+  return Ok{};
 }
 
 /// A picture, or a film: of --seconds, or as long as the tour.
-Status render_one(house::Stage& stage, RenderArguments arguments, const std::filesystem::path& output,
+Status render_one(stage::Stage& stage, RenderArguments arguments, const std::filesystem::path& output,
                   int width, int height, const machines::Processes& processes) {
   if (!arguments.tour.empty()) {
-    const Result<double> length_s = stage.play().actions().start_tour(arguments.tour);
+    const Result<double> length_s = stage.simulation().actions().start_tour(arguments.tour);
     if (!length_s) return length_s.errors();
     if (arguments.seconds == 0.0) arguments.seconds = *length_s;
   }
   if (arguments.seconds > 0.0) return render_film(stage, arguments, output, width, height, processes);
-  if (!processes.is_first()) return Done{};  // one frame is not divided
+  if (!processes.is_first()) return Ok{};  // one frame is not divided
   if (Status status = draw(stage, arguments, width, height); !status) return status;
   if (Status status = print_probes(stage, arguments, width, height); !status) return status;
   return write_image(output, reduced(stage.picture(), arguments.supersample));
 }
 
 /// The scene as it begins, or a picture or film of each scenario.
-Status render_states(house::Stage& stage, const RenderArguments& arguments, int width, int height,
+Status render_states(stage::Stage& stage, const RenderArguments& arguments, int width, int height,
                      const machines::Processes& processes) {
   if (arguments.scenarios.size() < 2)
     return render_one(stage, arguments, arguments.output, width, height, processes);
   const std::vector<std::filesystem::path> outputs =
-      house::series_files(arguments.output, '-', arguments.scenarios);
+      stage::series_files(arguments.output, '-', arguments.scenarios);
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (Status status = stage.choose_scenario(arguments.scenarios[i]); !status) return status;
     if (Status status = render_one(stage, arguments, outputs[i], width, height, processes); !status)
       return status;
   }
-  return Done{};
+  return Ok{};
 }
 
 Status render_scene(const RenderArguments& arguments) {
@@ -252,11 +252,11 @@ Status render_scene(const RenderArguments& arguments) {
   if (!processes) return processes.errors();
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  Result<std::unique_ptr<house::Stage>> stage = arguments.open_stage();
+  Result<std::unique_ptr<stage::Stage>> stage = arguments.open_stage();
   if (!stage) return stage.errors();
   if (Status status = render_states(**stage, arguments, width, height, *processes); !status) return status;
   processes->leave();
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

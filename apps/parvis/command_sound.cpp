@@ -51,11 +51,11 @@ Status run_sound(const SoundArguments& arguments) {
     return error("{}: expected a name that ends in .wav", arguments.output.string());
   const Result<scene::MeasuredPath> walk = read_walk(arguments);
   if (!walk) return walk.errors();
-  Result<house::Play> play = arguments.scene.open_play();
-  if (!play) return play.errors();
+  Result<stage::Simulation> simulation = arguments.scene.open_simulation();
+  if (!simulation) return simulation.errors();
   const auto output =
       sound::Output(std::ranges::find(sound_outputs, arguments.output_kind) - sound_outputs.begin());
-  sound::Listening listening(play->scene, output);
+  sound::Listening listening(simulation->scene, output);
 
   constexpr std::size_t moment = sound::sample_rate / 60;  // the clock's step
   const auto moments = std::size_t(std::ceil(arguments.seconds * 60.0));
@@ -64,18 +64,18 @@ Status run_sound(const SoundArguments& arguments) {
   std::size_t sounds = 0;
   for (std::size_t i = 0; i < moments; ++i, progress.advance()) {
     if (interruption()) return error("{}: interrupted; nothing is written", arguments.output.string());
-    play->advance(1.0 / 60.0);
+    simulation->advance(1.0 / 60.0);
     const double now_s = double(i + 1) / 60.0;
     Camera ears;
     if (walk->points().empty()) {
-      const Result<Camera> camera = play->camera(arguments.scene.camera);
+      const Result<Camera> camera = simulation->camera(arguments.scene.camera);
       if (!camera) return camera.errors();
       ears = *camera;
     } else {
       ears = walker_at(*walk, arguments.speed_m_s * now_s);
     }
-    listening.hear(play->scene, ears, play->clock.time_s(), std::span(left).subspan(i * moment, moment),
-                   std::span(right).subspan(i * moment, moment));
+    listening.hear(simulation->scene, ears, simulation->clock.time_s(),
+                   std::span(left).subspan(i * moment, moment), std::span(right).subspan(i * moment, moment));
     sounds = std::max(sounds, listening.counts().sounds);
   }
   const float gain = float(std::pow(10.0, arguments.gain_db / 20.0));
@@ -98,7 +98,7 @@ Status run_sound(const SoundArguments& arguments) {
              arguments.output.string(), arguments.seconds, sounds,
              propagation::level(energy / double(left.size())) + sound::full_scale_db - arguments.gain_db,
              sound::full_scale_db - arguments.gain_db);
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

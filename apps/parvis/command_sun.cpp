@@ -94,11 +94,11 @@ Result<std::vector<glm::dvec2>> read_outline(const SunArguments& arguments) {
 }
 
 /// The scene with what visitors may move at the place where the script puts it: it casts its shadow there.
-scene::Scene as_it_stands(const house::Play& play) {
-  scene::Scene scene = play.scene;
+scene::Scene as_it_stands(const stage::Simulation& simulation) {
+  scene::Scene scene = simulation.scene;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (!scene.objects[i].is_dynamic) continue;
-    const scene::Node* maker = play.live().maker_of(scene, int(i));
+    const scene::Node* maker = simulation.live().maker_of(scene, int(i));
     const bool is_grabbed = maker && maker->schema->find("grab") && maker->flag("grab");
     if (is_grabbed && scene.objects[i].played.animation == scene::no_index)
       scene.objects[i].is_dynamic = false;
@@ -165,7 +165,7 @@ Status print_positions(const SunArguments& arguments) {
     print(hour, "");
     if (highest_h >= hour && highest_h < hour + 1) print(highest_h, "  highest");
   }
-  return Done{};
+  return Ok{};
 }
 
 Status study(const SunArguments& arguments) {
@@ -173,9 +173,9 @@ Status study(const SunArguments& arguments) {
   if (!outline) return outline.errors();
   const Result<machines::Processes> processes = machines::Processes::join();
   if (!processes) return processes.errors();
-  const Result<house::Play> play = arguments.scene.open_play();
-  if (!play) return play.errors();
-  const Result<sun_hours::SunPeriod> period = read_period(arguments, play->scene);
+  const Result<stage::Simulation> simulation = arguments.scene.open_simulation();
+  if (!simulation) return simulation.errors();
+  const Result<sun_hours::SunPeriod> period = read_period(arguments, simulation->scene);
   if (!period) return period.errors();
   sun_hours::SunStudyOptions options{.period = *period,
                                      .cell_m = arguments.cell_m,
@@ -185,7 +185,7 @@ Status study(const SunArguments& arguments) {
                                      .processes = *processes};
   if (!arguments.area.empty())
     options.area = glm::dvec4(arguments.area[0], arguments.area[1], arguments.area[2], arguments.area[3]);
-  const Result<sun_hours::SunStudy> result = sun_hours::study_sun(as_it_stands(*play), options);
+  const Result<sun_hours::SunStudy> result = sun_hours::study_sun(as_it_stands(*simulation), options);
   if (!result) return result.errors();
   if (processes->is_first())
     if (Status status = sun_hours::write_sun_study(arguments.output, *result); !status) return status;
@@ -203,7 +203,7 @@ Status study(const SunArguments& arguments) {
       arguments.output.string(),
       result->surfaces.indices.empty() ? "" : ", _facades.csv, .glb with its colours in _sun_hours.jpg");
   print_rule(arguments, *result, *period);
-  return Done{};
+  return Ok{};
 }
 
 /// The day's shadows as a film: the hours while the sun is up, a frame every few minutes.
@@ -212,15 +212,15 @@ Status film_day(const SunArguments& arguments) {
   if (Status status = arguments.scene.read_size(width, height); !status) return status;
   const Result<gl::Context> context = gl::Context::create_headless();
   if (!context) return context.errors();
-  Result<std::unique_ptr<house::Stage>> stage = arguments.scene.open_stage();
+  Result<std::unique_ptr<stage::Stage>> stage = arguments.scene.open_stage();
   if (!stage) return stage.errors();
-  house::Play& play = (*stage)->play();
-  scene::LiveScene& live = play.live();
+  stage::Simulation& simulation = (*stage)->simulation();
+  scene::LiveScene& live = simulation.live();
   const scene::Node* node = live.find("%dayLight");
   if (!node) return error("a film of the day's shadows needs a scene with dayLight(...)");
   const Result<std::pair<int, int>> date = read_date(arguments.from);
   if (!date) return date.errors();
-  light::PlaceAndTime day = read_place(arguments, play.scene);
+  light::PlaceAndTime day = read_place(arguments, simulation.scene);
   day.year = date->first, day.day_of_year = date->second;
   if (Status status = check(day); !status) return status.errors();
   const light::DaylightHours hours = light::daylight_hours(day);
@@ -228,7 +228,7 @@ Status film_day(const SunArguments& arguments) {
   const bool is_whole_day = hours.sets_first() || !hours.rise_h || !hours.set_h;
   const double from = is_whole_day ? 0.0 : *hours.rise_h, to = is_whole_day ? 23.99 : *hours.set_h;
 
-  Result<house::Film> film = house::Film::open(arguments.film, width, height, 25);
+  Result<stage::Film> film = stage::Film::open(arguments.film, width, height, 25);
   if (!film) return film.errors();
   live.set(*node, "latitude", day.latitude_deg);
   live.set(*node, "longitude", day.longitude_deg);
@@ -240,9 +240,9 @@ Status film_day(const SunArguments& arguments) {
     live.set(*node, "year", long(now.year));
     live.set(*node, "julianDay", long(now.day_of_year));
     live.set(*node, "timeOfDay", now.time_of_day_h);
-    if (const Errors errors = live.refresh(play.scene); !errors.empty()) return errors;
-    play.clock.follow(play.scene);
-    play.settle();
+    if (const Errors errors = live.refresh(simulation.scene); !errors.empty()) return errors;
+    simulation.clock.follow(simulation.scene);
+    simulation.settle();
     const Result<Camera> camera = (*stage)->camera(arguments.scene.camera);
     if (!camera) return camera.errors();
     (*stage)->draw(*camera, width, height);
@@ -263,7 +263,7 @@ Status run(const SunArguments& arguments) {
   if (processes->is_first())
     if (Status status = film_day(arguments); !status) return status;
   processes->leave();
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ namespace {
 
 /// The steps that a command has done, kept beside its output until that is written.
 KeptParts checkpoint_of(const std::filesystem::path& output) {
-  return KeptParts(house::file_beside(output, ".steps"));
+  return KeptParts(stage::file_beside(output, ".steps"));
 }
 
 struct SynthesizeArguments {
@@ -150,7 +150,7 @@ Status synthesize(SynthesizeArguments arguments) {
   }
   if (Status status = write_truth(arguments.folder, *model); !status) return status;
   checkpoint.remove();
-  return Done{};
+  return Ok{};
 }
 
 Status mattes(const trees::MatteFolder& folder) {
@@ -160,7 +160,7 @@ Status mattes(const trees::MatteFolder& folder) {
              folder.output.string(), counts->made,
              counts->doubtful > 0 ? fmt::format(" ({} cannot be right)", counts->doubtful) : "",
              counts->up_to_date, counts->foreign);
-  return Done{};
+  return Ok{};
 }
 
 Status reconstruct(ReconstructArguments arguments) {
@@ -175,14 +175,14 @@ Status reconstruct(ReconstructArguments arguments) {
   const Result<trees::Reconstruction> made = trees::reconstruct(*views, arguments.options);
   if (!made) return made.errors();
   processes->leave();
-  if (!processes->is_first()) return Done{};  // all have the same cells
+  if (!processes->is_first()) return Ok{};  // all have the same cells
   for (const std::string& row : made->notes) fmt::print("{}\n", row);
   const Result<std::size_t> bytes = trees::write_volume(arguments.output, made->volume);
   if (!bytes) return bytes.errors();
   checkpoint.remove();
   fmt::print("{}: {} cells, {:.2f} MB, {} process{}\n", arguments.output.string(), made->volume.grid.size(),
              double(*bytes) * 1e-6, processes->count(), processes->are_several() ? "es" : "");
-  return Done{};
+  return Ok{};
 }
 
 /// The sun that was found in the textures, for people.
@@ -219,7 +219,7 @@ Status texture(const TextureArguments& arguments) {
   fmt::print("{}: {} billboards, {:.2f} MB\n", arguments.output.string(), tree->grid.size(),
              double(*bytes) * 1e-6);
   fmt::print("{}\n", light_row(tree->light));
-  return Done{};
+  return Ok{};
 }
 
 /// Prints how much the thesis's packing would save; with codes, the tree by vector quantisation.
@@ -234,7 +234,7 @@ Status pack(const PackArguments& arguments) {
       "{:.2f} MB\n",
       packing.textures, packing.packed, raw, raw * packing.ratio(), 100.0 * packing.ratio(),
       1e-6 * double(std::filesystem::file_size(arguments.file, code)));
-  if (arguments.output.empty()) return Done{};
+  if (arguments.output.empty()) return Ok{};
   const Result<trees::Quantisation> done = trees::quantise_textures(*tree, arguments.codes);
   if (!done) return done.errors();
   const Result<std::size_t> bytes = trees::write_tree(arguments.output, *tree);
@@ -242,17 +242,17 @@ Status pack(const PackArguments& arguments) {
   fmt::print("{}: {} blocks of 4 x 4 texels share {} codes, {:.2f} MB; texels differ by {:.4f} ({:.1f} dB)\n",
              arguments.output.string(), done->blocks, done->codes, 1e-6 * double(*bytes), done->rmse,
              done->psnr_db());
-  return Done{};
+  return Ok{};
 }
 
 Status measure(const FileArguments& arguments) {
   const Result<trees::TreeVolume> volume = trees::read_volume(arguments.file);
   if (!volume) return volume.errors();
   fmt::print("{}", measure_rows(trees::measured(*volume)));
-  return Done{};
+  return Ok{};
 }
 
-/// Compares what the house draws, in the light of the photographs, with views of the real tree.
+/// Compares what the renderer draws, in the light of the photographs, with views of the real tree.
 Status report(const FileArguments& arguments) {
   Result<trees::BillboardTree> tree = trees::read_tree(arguments.file);
   if (!tree) return tree.errors();
@@ -288,7 +288,7 @@ Status report(const FileArguments& arguments) {
       "mean of {} views: PSNR {:.2f} dB, SSIM {:.3f}, FLIP {:.3f}, alpha RMSE {:.4f}, silhouette IoU "
       "{:.3f}\n",
       views->size(), mean.psnr_db, mean.ssim, mean.flip, mean.alpha_rmse, mean.silhouette_iou);
-  return Done{};
+  return Ok{};
 }
 
 void add_synthesize(CLI::App& tree, Chosen& chosen) {

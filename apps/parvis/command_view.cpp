@@ -17,20 +17,20 @@ struct ViewArguments : SceneArguments {
 /// --fps.
 Status read_rate(const std::string& rate, viewer::WindowOptions& window) {
   constexpr double max_rate = 1000.0;
-  if (rate.empty()) return Done{};
+  if (rate.empty()) return Ok{};
   if (rate == "off") {
     window.frames_per_second = 0.0;
-    return Done{};
+    return Ok{};
   }
   if (rate == "auto") {
     window.always_holds_rate = true;
-    return Done{};
+    return Ok{};
   }
   const std::vector<double> numbers = scene::parse_numbers(rate);
   if (numbers.size() != 1 || !(numbers[0] >= 1.0 && numbers[0] <= max_rate))
     return error("--fps {}: expected frames per second, 1 to {}, auto or off", rate, max_rate);
   window.frames_per_second = numbers[0];
-  return Done{};
+  return Ok{};
 }
 
 std::string variable(const char* name) {
@@ -66,12 +66,12 @@ Status view(ViewArguments& arguments) {
     window.pictures.folder = (arguments.scene.parent_path() / ".").lexically_normal();
   window.language = planner::language_of(arguments.language.empty() ? locale() : arguments.language);
   window.kept_pictures = kept_pictures();
-  Result<house::Play> play = arguments.open_play();
-  if (!play) return play.errors();
+  Result<stage::Simulation> simulation = arguments.open_simulation();
+  if (!simulation) return simulation.errors();
   if (!arguments.tour.empty())
-    if (const Result<double> length = play->actions().start_tour(arguments.tour); !length)
+    if (const Result<double> length = simulation->actions().start_tour(arguments.tour); !length)
       return length.errors();
-  return viewer::show(*std::move(play), window);
+  return viewer::show(*std::move(simulation), window);
 }
 
 }  // namespace

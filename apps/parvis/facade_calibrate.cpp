@@ -43,7 +43,7 @@ Status CalibrationArguments::run() {
         stderr,
         "note: lengths are no metres: give --distance A B METRES between two photographs, or --scale\n");
   fmt::print("written to {}\n", job.folder.string());
-  return Done{};
+  return Ok{};
 }
 
 void add_facade_calibrate(CLI::App& stage, Chosen& chosen) {

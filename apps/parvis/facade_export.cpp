@@ -27,7 +27,7 @@ Status write_place(const FacadeExportArguments& arguments) {
     return status;
   fmt::print("{}: {} surfaces, {} triangles, {} photographs\n", arguments.output.string(),
              facade->surfaces.size(), facade->triangle_count(), facade->photos.size());
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

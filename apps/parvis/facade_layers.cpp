@@ -35,7 +35,7 @@ Status write_layers(const PlaceArguments& arguments, bool fills) {
   }
   if (Status status = facades::write_layered_pictures(*source, *place); !status) return status;
   fmt::print("written to {}\n", (arguments.folder / "layers").string());
-  return Done{};
+  return Ok{};
 }
 
 struct FillArguments {
@@ -109,7 +109,7 @@ Status judge_left_out(const std::vector<photographs::Photograph>& left_out, cons
   }
   if (left_out.size() > 1)
     for (const Row& row : means) print("mean", row);
-  return Done{};
+  return Ok{};
 }
 
 Status report(const PlaceArguments& arguments) {
@@ -138,7 +138,7 @@ Status report(const PlaceArguments& arguments) {
   if (!left_out.empty())
     if (Status status = judge_left_out(left_out, *source, *place, facade); !status) return status;
   fmt::print("written to {}\n", (folder / "index.html").string());
-  return Done{};
+  return Ok{};
 }
 
 struct FigureArguments {
@@ -169,7 +169,7 @@ Status draw_figures(const FigureArguments& arguments) {
       "of photograph {}; three photographs see {:.1f} % of the common view, their layers hold {:.1f} %\n",
       place->names[photo], coverage.seen_percent, coverage.layered_percent);
   fmt::print("written to {}\n", folder.string());
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

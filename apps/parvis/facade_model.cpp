@@ -28,7 +28,7 @@ Status propose_model(const FacadeModelArguments& arguments) {
   if (!arguments.scan.empty()) {
     if (Status status = write_trimmed_scan(arguments.folder, arguments.scan, file); !status) return status;
     fmt::print("written to {}\n", file.string());
-    return Done{};
+    return Ok{};
   }
   const Result<facades::PlaceModel> model =
       facades::propose_place_model(arguments.folder, arguments.settings);
@@ -42,7 +42,7 @@ Status propose_model(const FacadeModelArguments& arguments) {
     fmt::print("\n");
   }
   fmt::print("written to {}\n", file.string());
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ Status add_panorama(const FacadePanoramaArguments& arguments) {
   if (Status status = photographs::write_photograph_set(arguments.folder, set, pictures); !status)
     return status;
   fmt::print("{} photographs in {}\n", set.photographs.size(), arguments.folder.string());
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "capture/facades/scan_trim.h"
 #include "capture/photographs/set_file.h"
 #include "formats/readers/readers.h"
-#include "house/rooms.h"
+#include "rooms/rooms.h"
 
 namespace parvis {
 namespace {
@@ -26,7 +26,7 @@ Errors of_file(Errors errors, const std::filesystem::path& file) {
 /// The objects of a model in any format.
 Result<std::vector<facades::NamedMesh>> read_meshes(const std::filesystem::path& file) {
   Errors warnings;
-  const Result<scene::Model> model = house::all_rooms().get<formats::Readers>().read(file, {}, warnings);
+  const Result<scene::Model> model = rooms::all_registries().get<formats::Readers>().read(file, {}, warnings);
   if (!model) return model.errors();
   print(warnings);
   return facades::named_meshes(*model);
@@ -83,7 +83,7 @@ Status finish_place(const PlaceArguments& arguments, bool writes_pictures) {
       fmt::format("look: parvis view \"{}\"\n", (arguments.folder / "place.xp").string());
   if (writes_pictures && facades::is_packed(*source, arguments.settings)) {
     fmt::print("{} is packed as it is\n{}", arguments.folder.string(), look);
-    return Done{};
+    return Ok{};
   }
   const Result<facades::PlaceLayers> place = open_layers(*source, arguments.settings);
   if (!place) return place.errors();
@@ -98,7 +98,7 @@ Status finish_place(const PlaceArguments& arguments, bool writes_pictures) {
       1e-6 * double(packed->texture_bytes()),
       100.0 * double(packed->texture_bytes()) / double(packed->photograph_bytes()));
   fmt::print("written to {}\n{}", (arguments.folder / "place.facade").string(), look);
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis

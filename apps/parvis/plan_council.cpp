@@ -32,21 +32,21 @@ Result<std::vector<std::string>> chosen_views(const scene::Scene& scene, const C
 }
 
 /// Shows these designs of two, and hides the other.
-Status show(house::Play& play, const std::string& before, const std::string& after, bool shows_before,
-            bool shows_after) {
-  scene::LiveScene& live = play.live();
+Status show(stage::Simulation& simulation, const std::string& before, const std::string& after,
+            bool shows_before, bool shows_after) {
+  scene::LiveScene& live = simulation.live();
   for (const auto& [name, is_shown] : {std::pair(&before, shows_before), std::pair(&after, shows_after)}) {
     const scene::Node* node = live.find(*name);
     if (!node) return error("the design \"{}\" has no objects", *name);
     live.set(*node, "visible", is_shown);
   }
-  if (const Errors errors = live.refresh(play.scene); !errors.empty()) return errors;
-  play.clock.follow(play.scene);
-  play.settle();
-  return Done{};
+  if (const Errors errors = live.refresh(simulation.scene); !errors.empty()) return errors;
+  simulation.clock.follow(simulation.scene);
+  simulation.settle();
+  return Ok{};
 }
 
-Result<plan_drawing::SheetPicture> draw(house::Stage& stage, const std::string& camera_name) {
+Result<plan_drawing::SheetPicture> draw(stage::Stage& stage, const std::string& camera_name) {
   const Result<Camera> camera = stage.camera(camera_name);
   if (!camera) return camera.errors();
   stage.draw(*camera, supersample * picture_px.x, supersample * picture_px.y);
@@ -90,16 +90,16 @@ double cell_of(const glm::dvec4& area) {
 
 }  // namespace
 
-Status write_council(house::Stage& stage, const design::Session& session, const CouncilOptions& options) {
-  house::Play& play = stage.play();
+Status write_council(stage::Stage& stage, const design::Session& session, const CouncilOptions& options) {
+  stage::Simulation& simulation = stage.simulation();
   if (options.scale)
     if (Status status = plan_drawing::check_scale(*options.scale); !status) return status;
-  const Result<std::vector<std::string>> views = chosen_views(play.scene, options);
+  const Result<std::vector<std::string>> views = chosen_views(simulation.scene, options);
   if (!views) return views.errors();
-  const auto period = period_of(play.scene, options.day);
+  const auto period = period_of(simulation.scene, options.day);
   if (!period) return period.errors();
   const std::vector<design::PlacedObject> before_objects =
-      design::placed_objects(play.scene, play.live(), options.before);
+      design::placed_objects(simulation.scene, simulation.live(), options.before);
   plan_drawing::CouncilSheet sheet;
   sheet.title = options.title, sheet.subtitle = options.subtitle;
   sheet.before = options.before, sheet.after = session.name();
@@ -110,8 +110,8 @@ Status write_council(house::Stage& stage, const design::Session& session, const 
   sheet.centre = extent->first;
   sheet.scale = options.scale.value_or(plan_drawing::fitting_scale(extent->second));
 
-  if (Status status = show(play, sheet.before, sheet.after, false, false); !status) return status;
-  const scene::Scene bare = play.scene;
+  if (Status status = show(simulation, sheet.before, sheet.after, false, false); !status) return status;
+  const scene::Scene bare = simulation.scene;
   std::vector<design::PlacedObject> staying = session.objects();
   std::erase_if(staying, [&](const design::PlacedObject& object) {
     return std::ranges::any_of(
@@ -123,14 +123,15 @@ Status write_council(house::Stage& stage, const design::Session& session, const 
   std::array<scene::Scene, 2> scenes;
   Progress progress("council sheet", 2 * views->size() + 1);
   for (const bool is_after : {false, true}) {
-    if (Status status = show(play, sheet.before, sheet.after, !is_after, is_after); !status) return status;
+    if (Status status = show(simulation, sheet.before, sheet.after, !is_after, is_after); !status)
+      return status;
     for (std::size_t i = 0; i < views->size(); ++i, progress.advance()) {
       Result<plan_drawing::SheetPicture> picture = draw(stage, (*views)[i]);
       if (!picture) return picture.errors();
       sheet.views[i].name = (*views)[i];
       (is_after ? sheet.views[i].after : sheet.views[i].before) = *std::move(picture);
     }
-    scenes[is_after ? 1 : 0] = play.scene;
+    scenes[is_after ? 1 : 0] = simulation.scene;
   }
   if (period->second.empty()) {
     fmt::print(
@@ -146,7 +147,7 @@ Status write_council(house::Stage& stage, const design::Session& session, const 
   if (Status status = plan_drawing::write_council_sheet(options.file, sheet); !status) return status;
   fmt::print("{}: {} views, plan at 1:{:g}, {} objects that differ{}\n", options.file.string(), views->size(),
              sheet.scale, sheet.differences.size(), sheet.sun ? ", hours of sun on " + sheet.sun_day : "");
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis

@@ -24,6 +24,6 @@ struct CouncilOptions {
 /// Draws the scene with either design and writes the sheet. Needs a current OpenGL context; afterwards the
 /// session's design is shown, and the other is not. Errors: designs, cameras and dates that are none, two
 /// designs that are the same, and those of write_council_sheet.
-Status write_council(house::Stage& stage, const design::Session& session, const CouncilOptions& options);
+Status write_council(stage::Stage& stage, const design::Session& session, const CouncilOptions& options);
 
 }  // namespace parvis

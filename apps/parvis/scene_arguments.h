@@ -10,8 +10,8 @@
 #include "base/known_names.h"
 #include "base/memory_budget.h"
 #include "base/result.h"
-#include "house/rooms.h"
 #include "places/dressing/bare_file.h"
+#include "rooms/rooms.h"
 #include "stage/stage.h"
 #include "strict_numbers.h"
 
@@ -32,9 +32,9 @@ inline Status describe_bare_file(std::filesystem::path& scene, std::vector<std::
   for (const std::filesystem::path& folder : data)
     if (const std::string missing = missing_folder(folder); !missing.empty())
       fmt::print(stderr, "warning: --data {}: {}\n", folder.string(), missing);
-  if (!dressing::is_bare_file(scene)) return Done{};
+  if (!dressing::is_bare_file(scene)) return Ok{};
   const Result<dressing::WrittenScene> written =
-      dressing::write_bare_scene(scene, house::all_rooms().get<formats::Readers>(), ".");
+      dressing::write_bare_scene(scene, rooms::all_registries().get<formats::Readers>(), ".");
   if (!written) return written.errors();
   const std::string with_data =
       written->data_folder.empty() ? "" : fmt::format(" --data \"{}\"", written->data_folder.string());
@@ -43,7 +43,7 @@ inline Status describe_bare_file(std::filesystem::path& scene, std::vector<std::
              written->script.string(), with_data);
   if (!written->data_folder.empty()) data.push_back(written->data_folder);
   scene = written->script;
-  return Done{};
+  return Ok{};
 }
 
 struct SceneArguments {
@@ -94,13 +94,13 @@ struct SceneArguments {
   Status read_size(int& width, int& height) const { return parse_size(size, width, height); }
 
   /// The scene with its traffic, at the time given.
-  Result<house::Play> open_play() const {
+  Result<stage::Simulation> open_simulation() const {
     std::filesystem::path script = scene;
     std::vector<std::filesystem::path> folders = data;
     if (Status status = describe_bare_file(script, folders); !status) return status.errors();
-    Result<house::Play> play = house::open_play(house::all_rooms(), script, folders);
-    if (!play) return play.errors();
-    scene::LiveScene& live = play->live();
+    Result<stage::Simulation> simulation = stage::open_simulation(rooms::all_registries(), script, folders);
+    if (!simulation) return simulation.errors();
+    scene::LiveScene& live = simulation->live();
     if (!method.empty())
       if (const Status status = live.hold(live.unique_node("reflection"), "method", method); !status)
         return error("--reflection: {}", status.errors().front().message);
@@ -109,11 +109,11 @@ struct SceneArguments {
           !status)
         return error("--realism: {}", status.errors().front().message);
     if (!scenarios.empty())
-      if (Status status = live.choose(play->scene, scenarios.front()); !status) return status.errors();
-    if (Status status = plan_presses(play->actions()); !status) return status.errors();
-    play->advance(time_s);
-    play->settle();
-    return play;
+      if (Status status = live.choose(simulation->scene, scenarios.front()); !status) return status.errors();
+    if (Status status = plan_presses(simulation->actions()); !status) return status.errors();
+    simulation->advance(time_s);
+    simulation->settle();
+    return simulation;
   }
 
   /// Plans what --press asks for.
@@ -129,21 +129,21 @@ struct SceneArguments {
         return error("--press {}: nothing in the scene waits for the key \"{}\"", press, key);
       actions.press(key, in_s[0]);
     }
-    return Done{};
+    return Ok{};
   }
 
   /// --scenario for a command that shows one.
   Status expect_one_scenario() const {
     if (scenarios.size() > 1)
       return error("--scenario: one at a time; parvis render writes a picture of each");
-    return Done{};
+    return Ok{};
   }
 
   /// The same on its stage; needs a current context.
-  Result<std::unique_ptr<house::Stage>> open_stage() const {
-    Result<house::Play> play = open_play();
-    if (!play) return play.errors();
-    return house::Stage::create(*std::move(play));
+  Result<std::unique_ptr<stage::Stage>> open_stage() const {
+    Result<stage::Simulation> simulation = open_simulation();
+    if (!simulation) return simulation.errors();
+    return stage::Stage::create(*std::move(simulation));
   }
 };
 

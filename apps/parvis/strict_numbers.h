@@ -22,7 +22,7 @@ inline Status parse_size(const std::string& text, int& width, int& height) {
   if (!has_width || bad_height != std::errc() || rest != end || width < 1 || height < 1 || width > max_side ||
       height > max_side)
     return error("--size {}: expected width x height in pixels, as 1280x720, each up to {}", text, max_side);
-  return Done{};
+  return Ok{};
 }
 
 /// Adds to each numeric option of `app` and of its subcommands what no range can refuse: "nan", which is

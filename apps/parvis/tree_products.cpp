@@ -43,11 +43,11 @@ Status organs(const OrgansArguments& arguments) {
     if (!trunk) return trunk.errors();
     if (Status status = scene::write_gltf(arguments.trunk, trees::model_of(*trunk)); !status) return status;
   }
-  if (arguments.rest.empty()) return Done{};
+  if (arguments.rest.empty()) return Ok{};
   const Result<std::size_t> bytes =
       trees::write_volume(arguments.rest, trees::without(*volume, found, trunk));
   if (!bytes) return bytes.errors();
-  return Done{};
+  return Ok{};
 }
 
 struct TreeToTree {
@@ -59,7 +59,7 @@ Status write(const fs::path& to, const trees::BillboardTree& tree) {
   const Result<std::size_t> bytes = trees::write_tree(to, tree);
   if (!bytes) return bytes.errors();
   fmt::print("{}: {} billboards, {:.2f} MB\n", to.string(), tree.grid.size(), double(*bytes) * 1e-6);
-  return Done{};
+  return Ok{};
 }
 
 Status vary(const TreeToTree& arguments) {
@@ -91,7 +91,7 @@ Status figures(const FiguresArguments& arguments) {
       trees::write_figures(arguments.output, {*views, *held_out, arguments.level});
   if (!lines) return lines.errors();
   for (const std::string& line : *lines) fmt::print("{}\n", line);
-  return Done{};
+  return Ok{};
 }
 
 void add_organs(CLI::App& tree, Chosen& chosen) {

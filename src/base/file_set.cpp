@@ -19,7 +19,7 @@ Status write_together(const std::vector<FileContent>& contents,
     if (Status status = before_they_appear(); !status) return status;
   for (PartialFile& file : files)
     if (Status status = file.keep(); !status) return status;
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis

@@ -56,7 +56,7 @@ Status check_opened(const OpenFile& opened, const fs::path& file, struct stat& s
   if (!opened) return error("{}: cannot be opened for reading ({})", file.string(), system_reason());
   if (fstat(opened.get(), &status) != 0 || !S_ISREG(status.st_mode))
     return error("{}: is not a regular file; expected one, no folder, pipe or device", file.string());
-  return Done{};
+  return Ok{};
 }
 
 /// A pipe without a writer is refused by `check_opened`, not waited for.

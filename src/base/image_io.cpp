@@ -130,7 +130,7 @@ Status encode_pixels(std::string_view input, IsolatedOutput& output) {
   if (to.size() != bytes->size())
     return error("{}: there is no memory for its {} bytes", name, bytes->size());
   std::memcpy(to.data(), bytes->data(), bytes->size());
-  return Done{};
+  return Ok{};
 }
 
 /// Memory that encoding may take beyond the usual, by the size of the pixels: the slowest format writes 2 MB

@@ -149,7 +149,7 @@ TEST(ImageIo, FilesCutShortAnywhereAreErrorsThatNameThem) {
         } else if (Result<ImageF> picture = read_image_float(cut); !picture) {
           return picture.errors();
         }
-        return Done{};
+        return Ok{};
       }();
       ASSERT_FALSE(read) << share << " of " << name;
       EXPECT_NE(to_string(read.errors()).find("short" + kind), std::string::npos) << to_string(read.errors());

@@ -39,7 +39,7 @@ Status cover_in_worker(std::string_view input, IsolatedOutput& output) {
   if (to.empty()) return error("there is no memory for a line of text");
   std::memcpy(to.data(), &header, sizeof header);
   std::memcpy(to.data() + sizeof header, covered.pixels.data(), covered.pixels.size());
-  return Done{};
+  return Ok{};
 }
 
 /// Empty where the machine has no font, or the library for it is missing.

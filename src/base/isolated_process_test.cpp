@@ -22,7 +22,7 @@ namespace {
 Status repeat_backwards(std::string_view input, IsolatedOutput& output) {
   const std::span<std::byte> bytes = output.allocate(input.size());
   for (std::size_t i = 0; i < input.size(); ++i) bytes[i] = std::byte(input[input.size() - 1 - i]);
-  return Done{};
+  return Ok{};
 }
 
 Status refuse(std::string_view input, IsolatedOutput&) {
@@ -31,7 +31,7 @@ Status refuse(std::string_view input, IsolatedOutput&) {
 
 Status crash(std::string_view, IsolatedOutput&) {
   raise(SIGSEGV);
-  return Done{};
+  return Ok{};
 }
 Status give_up(std::string_view, IsolatedOutput&) { std::abort(); }
 Status leave(std::string_view, IsolatedOutput&) { std::exit(0); }
@@ -51,7 +51,7 @@ Status read_path(std::string_view path, IsolatedOutput& output) {
   if (!std::getline(stream, text)) return error("cannot open {}", path);
   const std::span<std::byte> bytes = output.allocate(text.size());
   std::memcpy(bytes.data(), text.data(), text.size());
-  return Done{};
+  return Ok{};
 }
 
 std::string text_of(const Result<IsolatedBytes>& result) {
@@ -71,7 +71,7 @@ Status repeat_in_worker(std::string_view input, IsolatedOutput& output) {
   if (!inside) return inside.errors();
   const std::span<std::byte> bytes = output.allocate(inside->bytes().size());
   std::memcpy(bytes.data(), inside->bytes().data(), bytes.size());
-  return Done{};
+  return Ok{};
 }
 
 TEST(IsolatedProcess, InnerWorkRunsInItsWorker) {
@@ -90,7 +90,7 @@ Status outlive(std::string_view input, IsolatedOutput& output) {
   const std::string said = inside ? "" : to_string(inside.errors());
   const std::span<std::byte> bytes = output.allocate(said.size());
   std::memcpy(bytes.data(), said.data(), said.size());
-  return Done{};
+  return Ok{};
 }
 
 TEST(IsolatedProcess, AWorkerIsNotLostWithItsInnerWork) {

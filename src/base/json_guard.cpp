@@ -20,7 +20,7 @@ Status check_json_depth(std::string_view text, const std::string& subject) {
       --depth;
     }
   }
-  return Done{};
+  return Ok{};
 }
 
 std::string json_reason(std::string_view what) {

@@ -21,14 +21,14 @@ Status check_place(const fs::path& folder, const fs::path& file, const SealedKin
       return error("{}: is a link; nothing is stored there. Remove it, or choose another output",
                    place.string());
   std::error_code code;
-  if (owner == FolderOf::program || !fs::exists(file, code)) return Done{};
+  if (owner == FolderOf::program || !fs::exists(file, code)) return Ok{};
   const Result<std::string> front = read_front(file, kind.magic.size());
   if (!front) return front.errors();
   // A program that was killed may have left an empty one; versions differ in the last character.
   if (!front->empty() && !front->starts_with(kind.magic.substr(0, kind.magic.size() - 1)))
     return error("{}: is no {} and is not replaced; remove it, or choose another output", file.string(),
                  kind.name);
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace
@@ -50,13 +50,13 @@ std::optional<std::string> KeptParts::find(const std::string& part, std::uint64_
   if (!fs::exists(path, code)) return std::nullopt;
   const Result<std::string> content = read_sealed(path, kind_);
   if (!content) return refuse(content.errors().front());
-  Taker taker(*content);
-  if (taker.take<std::uint64_t>() != key) return std::nullopt;
-  return std::string(taker.rest());
+  ByteReader reader(*content);
+  if (reader.take<std::uint64_t>() != key) return std::nullopt;
+  return std::string(reader.rest());
 }
 
 Status KeptParts::keep(const std::string& part, std::uint64_t key, std::string_view content) const {
-  if (!keeps_parts()) return Done{};
+  if (!keeps_parts()) return Ok{};
   const fs::path path = file(part);
   if (Status status = check_place(folder_, path, kind_, owner_); !status) return status;
   std::string bytes;

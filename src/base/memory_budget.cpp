@@ -53,9 +53,9 @@ std::uint64_t memory_left() {
 }
 
 Status check_memory(std::optional<std::uint64_t> bytes, std::string_view what) {
-  if (bytes && *bytes < small_bytes) return Done{};
+  if (bytes && *bytes < small_bytes) return Ok{};
   const std::uint64_t left = memory_left();
-  if (bytes && *bytes <= left) return Done{};
+  if (bytes && *bytes <= left) return Ok{};
   const std::string needed =
       bytes ? fmt::format("{:.1f} GB", gigabytes(*bytes)) : std::string("more than any machine has");
   return error(

@@ -102,7 +102,7 @@ Status check(const Mesh& mesh, const std::string& name) {
     if (mesh.indices[i] >= count)
       return error("{}: index {} of triangle {} is out of range; there are {} vertices", name,
                    mesh.indices[i], i / 3, count);
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis

@@ -17,7 +17,7 @@ constexpr Module<NoFunctions> absent("absent");
 
 Status ask_for_absent(std::string_view, IsolatedOutput&) {
   const Result<const NoFunctions*> functions = absent.functions();
-  return functions ? Status(Done{}) : functions.errors();
+  return functions ? Status(Ok{}) : functions.errors();
 }
 
 std::string mapped_files() {

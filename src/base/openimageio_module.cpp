@@ -99,7 +99,7 @@ Status check_size(const OIIO::ImageSpec& spec, std::size_t file_bytes, const std
   if (samples > std::max(small_picture_samples, max_samples_per_byte * std::uint64_t(file_bytes)))
     return error("{}: claims {} x {} pixels of {} channels in {} bytes; the picture is damaged", name,
                  spec.width, spec.height, spec.nchannels, file_bytes);
-  return Done{};
+  return Ok{};
 }
 
 /// Spreads `count` pixels of 1 to n channels over 3 or 4: grey to RGB, missing alpha to `opaque`.
@@ -222,7 +222,7 @@ Status decode(std::span<const std::uint8_t> bytes, const std::string& name, cons
   if constexpr (is_float)
     if (is_srgb)
       for (float& value : std::span(*pixels, values)) value = linear_from_srgb(value);
-  return Done{};
+  return Ok{};
 }
 
 template <class T>

@@ -291,7 +291,7 @@ Status PartialFile::write(std::string_view bytes) const {
     is_written = count > 0;
     if (is_written) bytes.remove_prefix(std::size_t(count));
   }
-  Status status = is_written ? Status(Done{}) : Status(cannot_write(file_));
+  Status status = is_written ? Status(Ok{}) : Status(cannot_write(file_));
   if (close(file) != 0 && is_written) return cannot_write(file_);
   return status;
 }
@@ -300,7 +300,7 @@ Status PartialFile::sync() const {
   const int written = open(partial_.c_str(), O_RDONLY | O_CLOEXEC);
   if (written < 0) return cannot_write(file_);
   const bool is_on_disk = fsync(written) == 0;
-  Status status = is_on_disk ? Status(Done{}) : Status(cannot_write(file_));
+  Status status = is_on_disk ? Status(Ok{}) : Status(cannot_write(file_));
   close(written);
   return status;
 }
@@ -313,7 +313,7 @@ Status PartialFile::keep() {
   if (rename(partial_.c_str(), file_.c_str()) != 0) return cannot_write(file_);
   partial_.clear();
   unlist(std::exchange(slot_, -1));
-  return Done{};
+  return Ok{};
 }
 
 Result<PartialFolder> PartialFolder::create(const fs::path& folder) {

@@ -71,9 +71,9 @@ class [[nodiscard]] Result {
   std::variant<T, Errors> state_;
 };
 
-/// The value of functions that succeed without one: `return Done{};`
-struct Done {};
-using Status = Result<Done>;
+/// The value of functions that succeed without one: `return Ok{};`
+struct Ok {};
+using Status = Result<Ok>;
 
 /// An error without a place, with a formatted message.
 template <class... Args>

@@ -56,11 +56,11 @@ Result<std::string> opened_sealed(const std::filesystem::path& file, std::string
   return std::string(bytes.substr(magic_size, end - magic_size));
 }
 
-std::string_view Taker::take_bytes(std::optional<std::uint64_t> size) {
+std::string_view ByteReader::take_bytes(std::optional<std::uint64_t> size) {
   return take(size ? std::size_t(*size) : bytes_.size() + 1);
 }
 
-std::string_view Taker::take(std::size_t size) {
+std::string_view ByteReader::take(std::size_t size) {
   if (size > bytes_.size()) {
     ended_early_ = true;
     return {};

@@ -58,10 +58,10 @@ inline void append_text(std::string& bytes, std::string_view text) {
 
 /// Reads values from the front of a byte string. Reading beyond the end yields zeros and sets
 /// `has_ended_early`.
-class Taker {
+class ByteReader {
  public:
   /// `bytes` must outlive the reader.
-  explicit Taker(std::string_view bytes) : bytes_(bytes) {}
+  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
 
   /// The next value, as `append_value` has written it; zero beyond the end.
   template <class T>

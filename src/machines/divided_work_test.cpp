@@ -26,7 +26,7 @@ TEST(DividedWork, EveryTaskIsRunOnceAndItsResultKept) {
     work.keep = [&](std::uint32_t task, std::string_view result) -> Status {
       EXPECT_EQ(result, std::to_string(3 * task));
       kept.insert(task);
-      return Done{};
+      return Ok{};
     };
     const Result<std::size_t> count = divide({}, numbers(1000), work);
     ASSERT_TRUE(count);
@@ -44,7 +44,7 @@ TEST(DividedWork, TasksOfOneThreadComeInOrder) {
     begun.push_back(task);
     return std::string();
   };
-  work.keep = [](std::uint32_t, std::string_view) -> Status { return Done{}; };
+  work.keep = [](std::uint32_t, std::string_view) -> Status { return Ok{}; };
   const Tasks to_do{4, 9, 2, 30};
   ASSERT_TRUE(divide({}, to_do, work));
   EXPECT_EQ(begun, to_do);
@@ -68,7 +68,7 @@ TEST(DividedWork, TheErrorOfATaskOrOfKeepingEndsIt) {
     };
     work.keep = [&](std::uint32_t task, std::string_view) -> Status {
       if (fails_to_keep && task == 5) return error("task {} is not kept", task);
-      return Done{};
+      return Ok{};
     };
     const Result<std::size_t> count = divide({}, numbers(100), work);
     ASSERT_FALSE(count);
@@ -86,7 +86,7 @@ TEST(DividedWork, InterruptedItSaysHowManyAreKept) {
     is_interrupted = task == 7;
     return std::string();
   };
-  work.keep = [](std::uint32_t, std::string_view) -> Status { return Done{}; };
+  work.keep = [](std::uint32_t, std::string_view) -> Status { return Ok{}; };
   const Result<std::size_t> count = divide({}, numbers(100), work);
   ASSERT_TRUE(count);
   EXPECT_EQ(*count, 8u);

@@ -6,19 +6,19 @@
 #include <set>
 #include <string>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "base/result.h"
 #include "machines/processes.h"
 #include "scene/data/scene.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 /// One run of `parvis bake`: states are baked one by one; then what is kept of all others is removed.
 class Baking {
  public:
-  /// `house` outlives it. `processes` divide the work of steps that can be divided; all of them bake.
-  explicit Baking(const House& house, const machines::Processes& processes = {})
-      : house_(house), processes_(processes) {}
+  /// `registries` outlives it. `processes` divide the work of steps that can be divided; all of them bake.
+  explicit Baking(const Registries& registries, const machines::Processes& processes = {})
+      : registries_(registries), processes_(processes) {}
 
   /// Runs all steps on one state, except those whose results its reflection method never reads. Prints a line
   /// per step that has something to bake. `plan`: see render::BakeInput. Needs a current OpenGL 4.5 context.
@@ -28,9 +28,9 @@ class Baking {
   void forget_other_states(const scene::Scene& scene) const;
 
  private:
-  const House& house_;
+  const Registries& registries_;
   machines::Processes processes_;
   std::map<std::string, std::set<std::filesystem::path>> kept_;  ///< per name of a step
 };
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

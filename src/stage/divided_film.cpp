@@ -10,7 +10,7 @@
 #include "stage/film.h"
 #include "stage/output_names.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace fs = std::filesystem;
 namespace {
 
@@ -35,10 +35,10 @@ Result<std::string> kept_frame(const FilmJob& job, std::uint32_t frame) {
   const fs::path file = frame_file(job, frame);
   const Result<std::string> content = read_sealed(file, frame_kind);
   if (!content) return content.errors();
-  Taker taker(*content);
-  if (taker.take<std::uint64_t>() != job.key || taker.take<std::uint32_t>() != frame)
+  ByteReader reader(*content);
+  if (reader.take<std::uint64_t>() != job.key || reader.take<std::uint32_t>() != frame)
     return error("{}: is another frame", file.string());
-  return std::string(taker.rest());
+  return std::string(reader.rest());
 }
 
 /// The frames that no earlier run has finished.
@@ -133,11 +133,11 @@ Status make_divided_film(const FilmJob& job, const machines::Processes& processe
   };
   const Result<std::size_t> kept = machines::divide(processes, to_do, work);
   if (!kept) return kept.errors();
-  if (!processes.is_first()) return Done{};
+  if (!processes.is_first()) return Ok{};
   if (*kept < to_do.size()) return interrupted(job);
   if (Status status = encode(job, *film); !status) return status;
   remove_frames(job);
-  return Done{};
+  return Ok{};
 }
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

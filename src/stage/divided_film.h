@@ -11,7 +11,7 @@
 #include "base/result.h"
 #include "machines/processes.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 /// Everything that determines a film.
 struct FilmJob {
@@ -33,4 +33,4 @@ std::filesystem::path frames_folder(const std::filesystem::path& film);
 /// frames cannot be written; it was interrupted (the same call goes on).
 Status make_divided_film(const FilmJob& job, const machines::Processes& processes);
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

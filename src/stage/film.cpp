@@ -8,7 +8,7 @@
 
 #include "base/checked.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace fs = std::filesystem;
 namespace {
 
@@ -95,7 +95,7 @@ Status Film::add(const Image8& frame) {
   if (std::fwrite(bytes_.data(), 1, bytes_.size(), pipe_) != bytes_.size())
     return error("{}: ffmpeg stopped; is the disk full or the folder not writable?", file_.string());
   ++frames_;
-  return Done{};
+  return Ok{};
 }
 
 Status Film::finish(const std::string& wave) {
@@ -120,4 +120,4 @@ Status Film::finish(const std::string& wave) {
   return with_sound->keep();
 }
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

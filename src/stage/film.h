@@ -10,7 +10,7 @@
 #include "base/partial_file.h"
 #include "base/result.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 /// Writes one film. It appears under its name when `finish` is called, or not at all.
 class Film {
@@ -38,4 +38,4 @@ class Film {
   std::vector<std::uint8_t> bytes_;  ///< a frame as RGB bytes
 };
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

@@ -7,7 +7,7 @@
 #include "base/files.h"
 #include "base/test_folder.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace {
 namespace fs = std::filesystem;
 
@@ -155,4 +155,4 @@ TEST_F(FilmTest, RefusesWhatCannotBeAFilm) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::stage

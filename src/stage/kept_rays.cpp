@@ -5,7 +5,7 @@
 
 #include "base/content_hash.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace {
 
 std::uint64_t casters(const scene::Scene& scene) {
@@ -47,4 +47,4 @@ std::optional<KeptRays::Moment> KeptRays::of(const scene::Scene& scene, std::chr
   return Moment{&kept_->rays, &kept_->scene};
 }
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

@@ -9,7 +9,7 @@
 #include "graphics/reference/ray_scene.h"
 #include "scene/data/scene.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 /// A ray tracer that is kept between pictures of a scene; used from one thread at a time.
 class KeptRays {
@@ -36,4 +36,4 @@ class KeptRays {
   std::future<std::unique_ptr<Kept>> building_;
 };
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

@@ -8,7 +8,7 @@
 
 #include "base/content_hash.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace {
 namespace fs = std::filesystem;
 
@@ -66,11 +66,11 @@ Status check_different(const std::vector<fs::path>& files) {
     if (!known.insert(file.lexically_normal()).second)
       return error("{}: two of the pictures would have this file; give each a name of its own",
                    file.string());
-  return Done{};
+  return Ok{};
 }
 
 fs::path file_beside(const fs::path& file, std::string_view ending) {
   return fs::path(file).replace_filename(fitting(file.filename().string(), ending));
 }
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

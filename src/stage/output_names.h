@@ -9,7 +9,7 @@
 
 #include "base/result.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 /// A file for each of `names`, beside `output`: PICTURE.png and "oaks" make PICTURE-oaks.png where `joint` is
 /// '-'. What no file should be called is replaced: '/' by '-', other signs and blanks by '_'. No two are the
@@ -24,4 +24,4 @@ Status check_different(const std::vector<std::filesystem::path>& files);
 /// (255 bytes), it is cut, with a hash of the whole.
 std::filesystem::path file_beside(const std::filesystem::path& file, std::string_view ending);
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

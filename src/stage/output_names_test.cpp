@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace {
 namespace fs = std::filesystem;
 
@@ -43,4 +43,4 @@ TEST(OutputNames, LongNamesAreCutAndStayApart) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::stage

@@ -11,7 +11,7 @@
 #include "graphics/shading/tone_curve.h"
 #include "stage/output_names.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace {
 namespace fs = std::filesystem;
 
@@ -51,7 +51,7 @@ Status write_photograph(const reference::Photograph& photograph, const Image8& d
   if (!outputs.depth.empty())
     if (Status status = write_image(outputs.depth[camera], photograph.depth_m); !status) return status;
   if (!outputs.alpha.empty()) return write_image(outputs.alpha[camera], photograph.alpha);
-  return Done{};
+  return Ok{};
 }
 
 Status check(const PhotographJob& job, const Outputs& outputs) {
@@ -120,7 +120,7 @@ Status take_photographs(const scene::Scene& scene, const PhotographJob& job) {
     taken.push_back(
         {outputs.pictures.front()[camera].filename().string(), named.camera, job.width, job.height});
   }
-  if (!job.options.processes.is_first()) return Done{};
+  if (!job.options.processes.is_first()) return Ok{};
   if (!job.colmap_folder.empty()) {
     const auto points = reference::seen_points(rays, taken, displays, std::max(job.width / points_across, 1));
     if (Status status = photographs::write_colmap(job.colmap_folder, taken, points); !status) return status;
@@ -130,7 +130,7 @@ Status take_photographs(const scene::Scene& scene, const PhotographJob& job) {
   std::error_code ignored;
   for (std::size_t camera = 0; camera < job.cameras.size(); ++camera)
     fs::remove(outputs.checkpoint(camera), ignored);
-  return Done{};
+  return Ok{};
 }
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

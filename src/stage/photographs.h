@@ -9,7 +9,7 @@
 #include "graphics/reference/photograph.h"
 #include "scene/data/scene.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 /// Cameras and outputs of photographs; a path that is empty is not written. Where there are several cameras,
 /// "_NAME" goes before the extension of pictures (series_files). No two may be the same file.
@@ -33,4 +33,4 @@ Result<std::vector<scene::NamedCamera>> circle_of_cameras(glm::vec3 target, floa
 /// the first picture until all is written.
 Status take_photographs(const scene::Scene& scene, const PhotographJob& job);
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

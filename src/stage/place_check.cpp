@@ -7,7 +7,7 @@
 
 #include "graphics/render/fixed_parts.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace {
 
 constexpr int min_backs = 4;         // of six directions: a camera under a bridge or in an arcade sees fewer
@@ -164,4 +164,4 @@ Errors check_place(const scene::Scene& scene) {
   return warnings;
 }
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

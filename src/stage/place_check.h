@@ -4,7 +4,7 @@
 #include "base/result.h"
 #include "scene/data/scene.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 /// A warning for each named camera that stands inside a wall or below the ground: the fixed, opaque faces
 /// that it sees first, up, down and to four sides, show it their backs. Cameras that follow an object are
@@ -12,4 +12,4 @@ namespace parvis::house {
 /// kilometres from all others: its coordinates are those of another place.
 Errors check_place(const scene::Scene& scene);
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

@@ -4,7 +4,7 @@
 
 #include "scene/data/test_scene.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace {
 
 scene::Scene house_with_camera(glm::vec3 eye) {
@@ -73,4 +73,4 @@ TEST(PlaceCheck, RoadsOverNothingAreNamed) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::stage

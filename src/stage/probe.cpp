@@ -3,7 +3,7 @@
 #include "graphics/reference/camera_ray.h"
 #include "graphics/reference/ray_scene.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace {
 
 /// Name of an object of the scene, or of a drawable of a room.
@@ -44,4 +44,4 @@ std::string to_string(const std::optional<ProbedPoint>& point, const scene::Scen
   return text;
 }
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

@@ -8,7 +8,7 @@
 #include "base/camera.h"
 #include "scene/data/scene.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 /// The nearest visible surface behind a pixel.
 struct ProbedPoint {
@@ -27,4 +27,4 @@ std::optional<ProbedPoint> probe(const scene::Scene& scene, const Camera& camera
 /// A sentence for people: metres, object, kind; with map coordinates where the scene has them.
 std::string to_string(const std::optional<ProbedPoint>& point, const scene::Scene& scene);
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

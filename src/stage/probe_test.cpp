@@ -4,7 +4,7 @@
 
 #include "scene/data/test_scene.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace {
 
 /// A house on level ground, seen from the south.
@@ -51,4 +51,4 @@ TEST(Probe, TheSkyIsNoPoint) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::stage

@@ -2,7 +2,7 @@
 
 #include "graphics/shading/tone_curve.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace {
 
 constexpr int samples_per_round = 16;  // spread evenly over each pixel, as those of a reference picture
@@ -74,4 +74,4 @@ std::optional<ImageF> Refinement::take() {
   return mean;
 }
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

@@ -11,7 +11,7 @@
 #include "scene/data/scene.h"
 #include "stage/kept_rays.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 /// The picture of one view at one moment. What it shows is copied when it begins; the light that the renderer
 /// drew it in is not: the renderer begins no frame before the refinement is gone.
@@ -52,4 +52,4 @@ class Refinement {
   std::jthread thread_;  ///< last: it uses all of the above
 };
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

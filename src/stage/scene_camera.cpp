@@ -6,7 +6,7 @@
 #include "base/known_names.h"
 #include "scene/data/surroundings.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace {
 
 /// A camera a little above the south-west, so far that all of the scene is seen.
@@ -48,4 +48,4 @@ Result<Camera> scene_camera(const scene::Scene& scene, const std::string& name) 
   return camera;
 }
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

@@ -6,10 +6,10 @@
 #include "base/result.h"
 #include "scene/data/scene.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 /// The camera of that name where it is now (it may follow an object); an unnamed one: the first of the scene,
 /// or a view of the whole where the scene has none. Errors name the cameras that there are.
 Result<Camera> scene_camera(const scene::Scene& scene, const std::string& name);
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

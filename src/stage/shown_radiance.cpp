@@ -2,7 +2,7 @@
 
 #include "graphics/render/picture_target.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 Result<ShownRadiance> ShownRadiance::create() {
   Result<gl::Program> display =
@@ -28,4 +28,4 @@ void ShownRadiance::display(GLuint framebuffer, float exposure) const {
   screen_.draw(display_, framebuffer, size_, texture_.name());
 }
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

@@ -6,7 +6,7 @@
 #include "graphics/gl/program.h"
 #include "graphics/render/whole_screen.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 /// Needs a current OpenGL context.
 class ShownRadiance {
@@ -30,4 +30,4 @@ class ShownRadiance {
   render::WholeScreen screen_;
 };
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

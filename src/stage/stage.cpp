@@ -13,7 +13,7 @@
 #include "stage/refinement.h"
 #include "stage/stillness.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace {
 
 Errors reported(Errors warnings) {
@@ -23,31 +23,32 @@ Errors reported(Errors warnings) {
 
 }  // namespace
 
-Errors Play::advance(double seconds, const std::optional<glm::vec3>& visitor) {
+Errors Simulation::advance(double seconds, const std::optional<glm::vec3>& visitor) {
   clock.advance(scene, seconds, {visitor});
   return reported(clock.take_warnings());
 }
 
-void Play::settle() {
+void Simulation::settle() {
   clock.settle(scene);
   reported(clock.take_warnings());
 }
 
-Result<Camera> Play::camera(const std::string& name) const {
+Result<Camera> Simulation::camera(const std::string& name) const {
   if (name.empty())
     if (const std::optional<Camera> camera = actions().camera(scene)) return *camera;
   return scene_camera(scene, name);
 }
 
-Play make_play(const House& house, scene::Scene scene, scene::LiveScene live) {
-  house.get<render::Drawables>().furnish(scene);
-  action::SceneClock clock(house.get<action::Processes>(), std::move(live), scene);
+Simulation make_simulation(const Registries& registries, scene::Scene scene, scene::LiveScene live) {
+  registries.get<render::Drawables>().attach(scene);
+  action::SceneClock clock(registries.get<action::Processes>(), std::move(live), scene);
   reported(clock.take_warnings());
-  return {&house, std::move(scene), std::move(clock)};
+  return {&registries, std::move(scene), std::move(clock)};
 }
 
-Play make_play(const House& house, scene::Scene scene) {
-  return make_play(house, std::move(scene), scene::LiveScene(house.get<scene::NodeRegistry>()));
+Simulation make_simulation(const Registries& registries, scene::Scene scene) {
+  return make_simulation(registries, std::move(scene),
+                         scene::LiveScene(registries.get<scene::NodeRegistry>()));
 }
 
 namespace {
@@ -65,22 +66,22 @@ Status charge_triangles(const scene::Scene& scene, const std::filesystem::path& 
 
 }  // namespace
 
-Result<Play> open_play(const House& house, const std::filesystem::path& script,
-                       std::span<const std::filesystem::path> data_folders) {
+Result<Simulation> open_simulation(const Registries& registries, const std::filesystem::path& script,
+                                   std::span<const std::filesystem::path> data_folders) {
   Result<scene::LoadedScene> loaded =
-      scene::load_scene(script, house.get<scene::NodeRegistry>(), data_folders);
+      scene::load_scene(script, registries.get<scene::NodeRegistry>(), data_folders);
   if (!loaded) return loaded.errors();
   reported(loaded->warnings);
   if (Status status = charge_triangles(loaded->scene, script); !status) return status.errors();
   reported(check_place(loaded->scene));
   scene::LiveScene live(std::move(loaded->script));
   if (Status status = live.prepare_scenarios(loaded->scene); !status) return status.errors();
-  return make_play(house, std::move(loaded->scene), std::move(live));
+  return make_simulation(registries, std::move(loaded->scene), std::move(live));
 }
 
-Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer, std::unique_ptr<realism::EdgeLines> lines,
-             ShownRadiance refined)
-    : play_(std::move(play)),
+Stage::Stage(Simulation simulation, std::unique_ptr<render::Renderer> renderer,
+             std::unique_ptr<realism::EdgeLines> lines, ShownRadiance refined)
+    : simulation_(std::move(simulation)),
       renderer_(std::move(renderer)),
       lines_(std::move(lines)),
       refined_(std::move(refined)),
@@ -90,18 +91,19 @@ Stage::Stage(Play play, std::unique_ptr<render::Renderer> renderer, std::unique_
 
 Stage::~Stage() = default;
 
-Result<std::unique_ptr<Stage>> Stage::create(Play play) {
-  if (Status status = play.house->get<methods::Registry>().prepare(play.scene); !status)
+Result<std::unique_ptr<Stage>> Stage::create(Simulation simulation) {
+  if (Status status = simulation.registries->get<methods::Registry>().prepare(simulation.scene); !status)
     return status.errors();
-  Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(
-      play.scene, play.house->get<render::Drawables>(), play.house->get<render::Lights>().make);
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(simulation.scene, simulation.registries->get<render::Drawables>(),
+                               simulation.registries->get<render::Lights>().make);
   if (!renderer) return renderer.errors();
   Result<ShownRadiance> refined = ShownRadiance::create();
   if (!refined) return refined.errors();
   Result<std::unique_ptr<realism::EdgeLines>> lines = realism::EdgeLines::create((*renderer)->gpu());
   if (!lines) return lines.errors();
   std::unique_ptr<Stage> stage(
-      new Stage(std::move(play), *std::move(renderer), *std::move(lines), *std::move(refined)));
+      new Stage(std::move(simulation), *std::move(renderer), *std::move(lines), *std::move(refined)));
   if (Status status = stage->set_reflection(methods::settings(stage->scene())); !status)
     return status.errors();
   return stage;
@@ -114,12 +116,13 @@ void Stage::end_refinement() {
 
 Status Stage::set_reflection(const methods::Settings& reflection) {
   end_refinement();  // methods begin frames when they are made
-  methods::settings(play_.scene) = shown_reflection_ = reflection;
+  methods::settings(simulation_.scene) = shown_reflection_ = reflection;
   renderer_->set_budget(double(reflection.budget_ms));
-  if (play_.scene.objects.size() > renderer_->gpu().object_bounds().size())
-    if (const Result<Camera> camera = play_.camera("")) renderer_->begin_frame(play_.scene, *camera);
+  if (simulation_.scene.objects.size() > renderer_->gpu().object_bounds().size())
+    if (const Result<Camera> camera = simulation_.camera(""))
+      renderer_->begin_frame(simulation_.scene, *camera);
   Result<std::unique_ptr<methods::Reflections>> made =
-      house().get<methods::Registry>().make(play_.scene, *renderer_);
+      registries().get<methods::Registry>().make(simulation_.scene, *renderer_);
   if (!made) return made.errors();
   if (const std::string why = gl::refused(); !why.empty())
     return error(
@@ -129,15 +132,15 @@ Status Stage::set_reflection(const methods::Settings& reflection) {
   if (Status status = renderer_->set_reflection(made->get()); !status) return status;
   reflections_ = *std::move(made);
   has_new_mirrors();  // all are known now
-  return Done{};
+  return Ok{};
 }
 
 /// Methods know mirrors by their models: for one that has come with a model of its own another method is
 /// made.
 bool Stage::has_new_mirrors() {
   bool is_any = false;
-  for (; known_objects_ < play_.scene.objects.size(); ++known_objects_) {
-    const scene::Object& object = play_.scene.objects[known_objects_];
+  for (; known_objects_ < simulation_.scene.objects.size(); ++known_objects_) {
+    const scene::Object& object = simulation_.scene.objects[known_objects_];
     if (object.takes_reflection) is_any |= mirrors_.insert(object.model.get()).second;
   }
   return is_any;
@@ -152,7 +155,8 @@ void Stage::follow_clock(double frame_ms) {
   const bool goes_by_frames = gl::is_software() && held_ms_ > 0.0;
   if (!goes_by_frames) reflections_->frame_took(update_ms, rest_ms);
   constexpr double held_share = 0.93;  // of a held frame's time: frames differ, and all of them count
-  const double own_ms = double(methods::settings(play_.scene).budget_ms), held_ms = held_share * held_ms_;
+  const double own_ms = double(methods::settings(simulation_.scene).budget_ms),
+               held_ms = held_share * held_ms_;
   const double budget_ms =
       own_ms > 0.0 && held_ms > 0.0 ? std::min(own_ms, held_ms) : std::max(own_ms, held_ms);
   scale_.frame_took(goes_by_frames ? frame_ms : update_ms + rest_ms, budget_ms);
@@ -167,14 +171,14 @@ double Stage::drawn_share() const {
 
 void Stage::adapt_to(const Camera& camera) {
   const glm::vec3 eye = camera.position_in_world();
-  play_.clock.adapt(play_.scene, std::span(&eye, 1));
+  simulation_.clock.adapt(simulation_.scene, std::span(&eye, 1));
 }
 
 void Stage::draw_held(const Camera& camera, int width, int height, const std::vector<std::uint8_t>& shown,
                       const scene::Scene& held) {
   const glm::ivec2 size(width, height);
   ContentHash hash;
-  hash.add(state_of(play_.scene, camera, width, height, &shown));
+  hash.add(state_of(simulation_.scene, camera, width, height, &shown));
   const bool is_below_known = std::exchange(below_held_, hash.value()) == hash.value();
   if (!is_below_known) {
     is_held_frame_kept_ = false;
@@ -196,8 +200,8 @@ void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn,
                  const std::vector<std::uint8_t>* shown) {
   end_refinement();
   below_held_ = 0;
-  if (has_new_mirrors() || methods::settings(play_.scene) != shown_reflection_)
-    if (const Status status = set_reflection(methods::settings(play_.scene)); !status)
+  if (has_new_mirrors() || methods::settings(simulation_.scene) != shown_reflection_)
+    if (const Status status = set_reflection(methods::settings(simulation_.scene)); !status)
       fmt::print(stderr, "{}", to_string(status.errors()));
   width_ = size.x, height_ = size.y;
   drawn_from_ = camera;
@@ -206,8 +210,8 @@ void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn,
   render::FrameSteps steps;
   steps.shown_objects = shown;
   steps.end_pass = [&](const char* pass) { pass_times_.end_pass(pass); };
-  const Status status =
-      methods::draw_frame(*renderer_, play_.scene, reflections_.get(), {camera, drawn.x, drawn.y}, steps);
+  const Status status = methods::draw_frame(*renderer_, simulation_.scene, reflections_.get(),
+                                            {camera, drawn.x, drawn.y}, steps);
   assert(status.ok() && "one eye has its target");
 }
 
@@ -215,12 +219,12 @@ void Stage::refine(const Camera& camera, int width, int height) {
   const bool has_lines = shading::ink_at(scene().data<scene::Realism>().level) > 0.0f;
   if (!refinement_) {
     const glm::ivec2 size(width, height);
-    reflections_->hold(double(methods::settings(play_.scene).budget_ms));
+    reflections_->hold(double(methods::settings(simulation_.scene).budget_ms));
     if (size != glm::ivec2(renderer_->width(), renderer_->height())) return draw(camera, size, size);
     if (has_lines) return;
-    refinement_ =
-        std::make_unique<Refinement>(*kept_rays_, play_.scene, renderer_->sky(), renderer_->drawn_light(),
-                                     camera, width, height, methods::settings(play_.scene).bounces);
+    refinement_ = std::make_unique<Refinement>(*kept_rays_, simulation_.scene, renderer_->sky(),
+                                               renderer_->drawn_light(), camera, width, height,
+                                               methods::settings(simulation_.scene).bounces);
   }
   if (refinement_->samples() < render::samples_per_pixel) return;
   if (std::optional<ImageF> radiance = refinement_->take()) {
@@ -231,20 +235,21 @@ void Stage::refine(const Camera& camera, int width, int height) {
 
 void Stage::display(GLuint framebuffer) const {
   if (refined_samples_ > 0)
-    refined_.display(framebuffer, play_.scene.exposure);
+    refined_.display(framebuffer, simulation_.scene.exposure);
   else
-    renderer_->display(framebuffer, {width_, height_}, play_.scene.exposure);
+    renderer_->display(framebuffer, {width_, height_}, simulation_.scene.exposure);
 }
 
 Image8 Stage::picture() {
-  if (refined_samples_ > 0) return shading::tone_mapped_picture(refined_.radiance(), play_.scene.exposure);
-  return renderer_->read_picture(play_.scene.exposure);
+  if (refined_samples_ > 0)
+    return shading::tone_mapped_picture(refined_.radiance(), simulation_.scene.exposure);
+  return renderer_->read_picture(simulation_.scene.exposure);
 }
 
 Image8 Stage::whole_picture() {
   const glm::ivec2 size(width_, height_);
   if (refined_samples_ == 0 && size != glm::ivec2(renderer_->width(), renderer_->height())) {
-    reflections_->hold(double(methods::settings(play_.scene).budget_ms));
+    reflections_->hold(double(methods::settings(simulation_.scene).budget_ms));
     draw(Camera(drawn_from_), size, size);
   }
   return picture();
@@ -257,7 +262,7 @@ reference::TracedPicture Stage::trace(const Camera& camera, int width, int heigh
   reference::TraceOptions options;
   options.samples_per_pixel = samples_per_pixel;
   options.processes = &processes;
-  return methods::trace_frame(*renderer_, play_.scene, {camera, width, height}, options);
+  return methods::trace_frame(*renderer_, simulation_.scene, {camera, width, height}, options);
 }
 
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_per_pixel,
@@ -267,7 +272,7 @@ reference::TracedPicture Stage::trace(const Camera& camera, int width, int heigh
   reference::TraceOptions options;
   options.samples_per_pixel = samples_per_pixel;
   options.window = window;
-  return methods::trace_frame(*renderer_, play_.scene, {camera, width, height}, options);
+  return methods::trace_frame(*renderer_, simulation_.scene, {camera, width, height}, options);
 }
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

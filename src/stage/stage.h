@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "graphics/gl/pass_times.h"
 #include "graphics/realism/edge_lines.h"
 #include "graphics/reference/tracer.h"
@@ -25,14 +25,15 @@
 #include "stage/scene_camera.h"
 #include "stage/shown_radiance.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 class KeptRays;
 class Refinement;
 
 /// A running scene: data and the clock that drives its processes.
-struct Play {
-  const House* house;  ///< not owned: the rooms whose nodes, processes, drawables and methods it uses
+struct Simulation {
+  const Registries*
+      registries;  ///< not owned: the rooms whose nodes, processes, drawables and methods it uses
   scene::Scene scene;
   action::SceneClock clock;
 
@@ -52,36 +53,36 @@ struct Play {
   Result<Camera> camera(const std::string& name) const;
 };
 /// Starts the processes of a scene; `live` holds the nodes of its script. Warnings are written to standard
-/// error. `house` must live as long as the play.
-Play make_play(const House& house, scene::Scene scene, scene::LiveScene live);
+/// error. `registries` must live as long as the simulation.
+Simulation make_simulation(const Registries& registries, scene::Scene scene, scene::LiveScene live);
 /// The same of a scene without a script.
-Play make_play(const House& house, scene::Scene scene);
-/// The same of a script, which may use the node types of `house`.
-Result<Play> open_play(const House& house, const std::filesystem::path& script,
-                       std::span<const std::filesystem::path> data_folders);
+Simulation make_simulation(const Registries& registries, scene::Scene scene);
+/// The same of a script, which may use the node types of `registries`.
+Result<Simulation> open_simulation(const Registries& registries, const std::filesystem::path& script,
+                                   std::span<const std::filesystem::path> data_folders);
 
-/// Renders a play. Needs a current OpenGL context.
+/// Renders a simulation. Needs a current OpenGL context.
 class Stage {
  public:
   /// Prepares the scene's reflection method, uploads the scene and compiles the shaders. Errors: those of the
   /// method's preparation, or of a shader.
-  static Result<std::unique_ptr<Stage>> create(Play play);
+  static Result<std::unique_ptr<Stage>> create(Simulation simulation);
   Stage(const Stage&) = delete;
   ~Stage();
 
-  Play& play() { return play_; }  ///< the running scene
+  Simulation& simulation() { return simulation_; }  ///< the running scene
   /// The rooms whose nodes, processes, drawables and methods the stage uses.
-  const House& house() const { return *play_.house; }
-  const scene::Scene& scene() const { return play_.scene; }  ///< as of the last step
-  render::Renderer& renderer() { return *renderer_; }        ///< for other views and readbacks
+  const Registries& registries() const { return *simulation_.registries; }
+  const scene::Scene& scene() const { return simulation_.scene; }  ///< as of the last step
+  render::Renderer& renderer() { return *renderer_; }              ///< for other views and readbacks
   const methods::Reflections& reflections() const { return *reflections_; }  ///< the active reflection method
   /// Times of the passes of a frame: shadows, reflections, picture; callers may add passes.
   gl::PassTimes& pass_times() { return pass_times_; }
 
   /// Activates another scenario (empty: the base scene) from the next frame on; loads nothing.
   Status choose_scenario(const std::string& name) {
-    Status status = play_.live().choose(play_.scene, name);
-    play_.clock.follow(play_.scene);
+    Status status = simulation_.live().choose(simulation_.scene, name);
+    simulation_.clock.follow(simulation_.scene);
     return status;
   }
   /// Replaces the reflection method. Fails if its shaders or its data cannot be prepared.
@@ -100,8 +101,8 @@ class Stage {
   /// The fraction of the last frame's displayed pixels that was drawn.
   double drawn_share() const;
 
-  /// See Play::camera.
-  Result<Camera> camera(const std::string& name) const { return play_.camera(name); }
+  /// See Simulation::camera.
+  Result<Camera> camera(const std::string& name) const { return simulation_.camera(name); }
 
   /// Renders the present frame: shadows, reflections, picture. Applies the changes of scenarios and messages
   /// first.
@@ -146,12 +147,12 @@ class Stage {
   void end_refinement();
   void adapt_to(const Camera& camera);
   bool has_new_mirrors();
-  Stage(Play play, std::unique_ptr<render::Renderer> renderer, std::unique_ptr<realism::EdgeLines> lines,
-        ShownRadiance refined);
+  Stage(Simulation simulation, std::unique_ptr<render::Renderer> renderer,
+        std::unique_ptr<realism::EdgeLines> lines, ShownRadiance refined);
   void draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn,
             const std::vector<std::uint8_t>* shown = nullptr);
 
-  Play play_;
+  Simulation simulation_;
   std::unique_ptr<render::Renderer> renderer_;
   std::unique_ptr<realism::EdgeLines> lines_;  ///< that it draws
   std::unique_ptr<methods::Reflections> reflections_;
@@ -172,4 +173,4 @@ class Stage {
   std::unique_ptr<Refinement> refinement_;  ///< last: it reads the renderer's light
 };
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

@@ -11,14 +11,14 @@
 #include "graphics/gl/test_context.h"
 #include "graphics/reference/metrics.h"
 #include "graphics/shading/tone_curve.h"
-#include "house/rooms.h"
 #include "reflections/methods/settings.h"
+#include "rooms/rooms.h"
 #include "scene/data/object_animation.h"
 #include "scene/data/test_scene.h"
 #include "stage/kept_rays.h"
 #include "stage/stillness.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace {
 
 using scene::add, scene::box, scene::ground, scene::matt, scene::model_of, scene::quad;
@@ -75,7 +75,7 @@ scene::Scene street() {
 
 TEST_F(StageTest, AStreetIsWhatTheRayTracerSays) {
   constexpr int width = 480, height = 270;
-  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), street()));
+  Result<std::unique_ptr<Stage>> stage = Stage::create(make_simulation(rooms::all_registries(), street()));
   ASSERT_TRUE(stage) << to_string(stage.errors());
   Camera camera;
   camera.world_from_camera = look_at({-5.5f, -6.5f, 1.7f}, {0, 1.5f, 1.2f});
@@ -96,7 +96,7 @@ TEST_F(StageTest, AStreetIsWhatTheRayTracerSays) {
             0.08);  // the map has one centre: walls at 8 m stand a little aside of where they are
 
   // Another light is another picture: the check can fail.
-  (*stage)->play().scene.sun.direction_to_sun = glm::normalize(glm::vec3(-0.4f, -0.6f, 0.7f));
+  (*stage)->simulation().scene.sun.direction_to_sun = glm::normalize(glm::vec3(-0.4f, -0.6f, 0.7f));
   (*stage)->draw(camera, width, height);
   const Result<reference::Difference> later = reference::compare((*stage)->picture(), traced);
   ASSERT_TRUE(later) << to_string(later.errors());
@@ -118,7 +118,7 @@ TEST_F(StageTest, AGlassBallShowsItsCubeMapUpsideDown) {
   camera.world_from_camera = look_at({-4.5f, -6.5f, 1.7f}, {-3.5f, -2.0f, 1.2f});
   const auto flip_of = [&](const std::string& method) {
     methods::settings(scene).method = method;
-    Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), scene));
+    Result<std::unique_ptr<Stage>> stage = Stage::create(make_simulation(rooms::all_registries(), scene));
     EXPECT_TRUE(stage) << to_string(stage.errors());
     (*stage)->draw(camera, width, height);
     const Image8 drawn = (*stage)->picture();
@@ -136,7 +136,7 @@ TEST_F(StageTest, ABudgetIsHeldByDrawingFewerPixelsInWindowsAlone) {
   constexpr int width = 160, height = 90, frames = 12;  // times come frames later
   scene::Scene scene = street();
   methods::settings(scene).budget_ms = 0.001f;
-  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), scene));
+  Result<std::unique_ptr<Stage>> stage = Stage::create(make_simulation(rooms::all_registries(), scene));
   ASSERT_TRUE(stage) << to_string(stage.errors());
   Camera camera;
   camera.world_from_camera = look_at({-5.5f, -6.5f, 1.7f}, {0, 1.5f, 1.2f});
@@ -152,7 +152,7 @@ TEST_F(StageTest, ABudgetIsHeldByDrawingFewerPixelsInWindowsAlone) {
 
 TEST_F(StageTest, AHeldRateDrawsFewerPixelsUntilNothingMoves) {
   constexpr int width = 160, height = 90, frames = 12;
-  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), street()));
+  Result<std::unique_ptr<Stage>> stage = Stage::create(make_simulation(rooms::all_registries(), street()));
   ASSERT_TRUE(stage) << to_string(stage.errors());
   Camera camera;
   camera.world_from_camera = look_at({-5.5f, -6.5f, 1.7f}, {0, 1.5f, 1.2f});
@@ -181,7 +181,8 @@ TEST_F(StageTest, AtRestThePictureBecomesTheReferencePicture) {
   constexpr int width = 96, height = 72, rounds = 600;
   scene::Scene scene = street();
   methods::settings(scene).method = "none";
-  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), std::move(scene)));
+  Result<std::unique_ptr<Stage>> stage =
+      Stage::create(make_simulation(rooms::all_registries(), std::move(scene)));
   ASSERT_TRUE(stage) << to_string(stage.errors());
   Camera camera;
   camera.world_from_camera = look_at({-5.5f, -6.5f, 1.7f}, {0, 1.5f, 1.2f});
@@ -283,7 +284,8 @@ std::shared_ptr<scene::Model> falling_board() {
 }
 
 TEST_F(StageTest, WhatTheDriverRefusesIsAnError) {
-  const Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), scene::Scene()));
+  const Result<std::unique_ptr<Stage>> stage =
+      Stage::create(make_simulation(rooms::all_registries(), scene::Scene()));
   ASSERT_TRUE(stage) << to_string(stage.errors());
   gl::Texture texture = gl::Texture::create(GLenum(GL_TEXTURE_2D));
   glTextureStorage2D(texture.name(), 1, GL_RGBA8, 1 << 30, 1);
@@ -301,14 +303,15 @@ TEST_F(StageTest, WhatBendsIsWhereTheRayTracerSeesIt) {
   add(place, model_of(ground(40), matt(glm::vec3(0.25f))));
   scene::play(place.objects[std::size_t(add(place, falling_board()))], {.animation = 0});
   place.sun.direction_to_sun = glm::normalize(glm::vec3(-0.6f, -0.4f, 0.7f));
-  Result<std::unique_ptr<Stage>> stage = Stage::create(make_play(all_rooms(), std::move(place)));
+  Result<std::unique_ptr<Stage>> stage =
+      Stage::create(make_simulation(rooms::all_registries(), std::move(place)));
   ASSERT_TRUE(stage) << to_string(stage.errors());
   Camera camera;
   camera.world_from_camera = look_at({1.5f, -9, 2}, {1.5f, 0, 1.2f});
   camera.vertical_fov = glm::radians(40.0f);
   Image8 before;
   for (const double step_s : {0.0, 0.6}) {
-    ASSERT_TRUE((*stage)->play().advance(step_s).empty());
+    ASSERT_TRUE((*stage)->simulation().advance(step_s).empty());
     (*stage)->draw(camera, width, height);
     const Image8 drawn = (*stage)->picture();
     const reference::TracedPicture truth = (*stage)->trace(camera, width, height, 16);
@@ -322,4 +325,4 @@ TEST_F(StageTest, WhatBendsIsWhereTheRayTracerSeesIt) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::stage

@@ -3,7 +3,7 @@
 #include "base/content_hash.h"
 #include "reflections/methods/settings.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 /// Models stay as they are while a scene runs, and a sky that is computed counts its versions: neither is
 /// read through in each frame.
@@ -40,4 +40,4 @@ void Stillness::add_frame(const scene::Scene& scene, const Camera& camera, int w
   state_ = state;
 }
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

@@ -7,7 +7,7 @@
 #include "base/camera.h"
 #include "scene/data/scene.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 
 /// A hash of all that a frame shows and that may change while a scene runs; without the objects that `shown`
 /// leaves out (a flag for each; null: all are shown).
@@ -31,4 +31,4 @@ class Stillness {
   double still_s_ = 0.0;  ///< for how long nothing has changed; 0 in a frame that differs from the last
 };
 
-}  // namespace parvis::house
+}  // namespace parvis::stage

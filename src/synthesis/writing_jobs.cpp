@@ -16,7 +16,7 @@ Status run_all(const std::vector<WritingJob>& jobs, const fs::path& folder) {
   Errors all;
   for (const Errors& some : failures) all.insert(all.end(), some.begin(), some.end());
   if (!all.empty()) return all;
-  return Done{};
+  return Ok{};
 }
 
 Status make_folder(const fs::path& folder) {
@@ -25,7 +25,7 @@ Status make_folder(const fs::path& folder) {
   if (code || !fs::is_directory(folder, code))
     return error("{}: the folder cannot be made ({}); choose one that can be written", folder.string(),
                  code.message());
-  return Done{};
+  return Ok{};
 }
 
 /// Moves every file of `from` into `to`, over files of the same name.
@@ -40,7 +40,7 @@ Status move_files(const fs::path& from, const fs::path& to) {
     if (code)
       return error("{}: cannot be written ({})", (to / entry.path().filename()).string(), code.message());
   }
-  return Done{};
+  return Ok{};
 }
 
 /// All files, then their move; what cannot be written leaves nothing behind.

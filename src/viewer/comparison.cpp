@@ -7,24 +7,24 @@
 
 namespace parvis::viewer {
 
-void Comparison::draw_one(house::Stage& stage, const Camera& camera, const std::string& shown,
+void Comparison::draw_one(stage::Stage& stage, const Camera& camera, const std::string& shown,
                           const std::string& hidden, glm::ivec2 size, bool is_whole, const Shown& into) {
-  scene::LiveScene& live = stage.play().live();
+  scene::LiveScene& live = stage.simulation().live();
   for (const auto& [name, is_visible] : {std::pair(&shown, true), std::pair(&hidden, false)})
     if (const scene::Node* node = live.find(*name)) live.set(*node, "visible", is_visible);
   // All else has been built when the scene took its step: visibility alone waits, which cannot fail.
-  live.refresh(stage.play().scene);
-  stage.play().clock.follow(stage.play().scene);
+  live.refresh(stage.simulation().scene);
+  stage.simulation().clock.follow(stage.simulation().scene);
   stage.draw(camera, size.x, size.y);
   if (is_whole) stage.whole_picture();
   stage.display(into.framebuffer.name());
 }
 
-void Comparison::draw(house::Stage& stage, const Camera& camera, const std::string& before,
+void Comparison::draw(stage::Stage& stage, const Camera& camera, const std::string& before,
                       const std::string& after, ComparedView view, glm::ivec2 size) {
   if (view == ComparedView::side_by_side) size.x = std::max(size.x / 2, 1);
   ContentHash hash;
-  hash.add(house::state_of(stage.scene(), camera, size.x, size.y));
+  hash.add(stage::state_of(stage.scene(), camera, size.x, size.y));
   hash.add_text(before + "/" + after);
   const bool is_same = hash.value() == state_ && view == view_ && size == size_;
   if (is_same && is_whole_) return;
@@ -41,7 +41,7 @@ void Comparison::draw(house::Stage& stage, const Camera& camera, const std::stri
   draw_one(stage, camera, before, after, size, is_whole_, before_);
   draw_one(stage, camera, after, before, size, is_whole_, after_);
   hash = {};
-  hash.add(house::state_of(stage.scene(), camera, size.x, size.y));
+  hash.add(stage::state_of(stage.scene(), camera, size.x, size.y));
   hash.add_text(before + "/" + after);
   state_ = hash.value();
 }

@@ -18,7 +18,7 @@ class Comparison {
   /// Draws both where the scene, the view or the size has changed since, and once more in full resolution
   /// when they have come to rest. The scene shows `after` afterwards. `width`, `height`: of the window's
   /// part, pixels; side by side each has half of it.
-  void draw(house::Stage& stage, const Camera& camera, const std::string& before, const std::string& after,
+  void draw(stage::Stage& stage, const Camera& camera, const std::string& before, const std::string& after,
             ComparedView view, glm::ivec2 size);
   /// Copies them into a framebuffer: `before` left of `split`, a share of the width, and `after` right of it;
   /// side by side both as a whole. `only_before`: leaves what is right as it is.
@@ -30,7 +30,7 @@ class Comparison {
     gl::Texture texture;
     gl::Framebuffer framebuffer;
   };
-  static void draw_one(house::Stage& stage, const Camera& camera, const std::string& shown,
+  static void draw_one(stage::Stage& stage, const Camera& camera, const std::string& shown,
                        const std::string& hidden, glm::ivec2 size, bool is_whole, const Shown& into);
 
   Shown before_, after_;

@@ -46,8 +46,9 @@ Result<scene::Scene> scene_of(const std::vector<design::Kind>& kinds, const scen
 
 }  // namespace
 
-KindPictures::KindPictures(const House& house, const scene::Scene& scene, std::filesystem::path folder)
-    : house_(house), scene_(scene), kept_(std::move(folder)) {}
+KindPictures::KindPictures(const Registries& registries, const scene::Scene& scene,
+                           std::filesystem::path folder)
+    : registries_(registries), scene_(scene), kept_(std::move(folder)) {}
 
 KindPictures::~KindPictures() = default;
 
@@ -60,10 +61,10 @@ Status KindPictures::draw(const design::Kind& kind, Image8& picture) {
   const std::vector<design::Kind> kinds = design::kinds_of(scene_);
   if (!stage_ || shown_kinds_ != kinds.size()) {
     shown_kinds_ = kinds.size();
-    Result<scene::Scene> scene = scene_of(kinds, scene_, house_.get<scene::NodeRegistry>());
+    Result<scene::Scene> scene = scene_of(kinds, scene_, registries_.get<scene::NodeRegistry>());
     if (!scene) return scene.errors();
-    Result<std::unique_ptr<house::Stage>> stage =
-        house::Stage::create(house::make_play(house_, *std::move(scene)));
+    Result<std::unique_ptr<stage::Stage>> stage =
+        stage::Stage::create(stage::make_simulation(registries_, *std::move(scene)));
     if (!stage) return stage.errors();
     stage_ = *std::move(stage);
   }
@@ -77,7 +78,7 @@ Status KindPictures::draw(const design::Kind& kind, Image8& picture) {
       look_at(middle + away_m * glm::normalize(glm::vec3(-0.55f, -1.0f, 0.42f)), middle);
   stage_->draw(camera, size, size);
   picture = stage_->picture();
-  return Done{};
+  return Ok{};
 }
 
 bool KindPictures::make_one() {

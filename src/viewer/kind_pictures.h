@@ -15,7 +15,7 @@ namespace parvis::viewer {
 class KindPictures {
  public:
   /// `folder`: where pictures are kept; empty: nowhere. The scene outlives this.
-  KindPictures(const House& house, const scene::Scene& scene, std::filesystem::path folder);
+  KindPictures(const Registries& registries, const scene::Scene& scene, std::filesystem::path folder);
   ~KindPictures();
 
   static constexpr int size = 192;  ///< pixels of a side
@@ -27,11 +27,11 @@ class KindPictures {
  private:
   Status draw(const design::Kind& kind, Image8& picture);
 
-  const House& house_;
+  const Registries& registries_;
   const scene::Scene& scene_;
   KeptParts kept_;
   std::map<std::string, gl::Texture> textures_;
-  std::unique_ptr<house::Stage> stage_;  ///< of all kinds beside each other
+  std::unique_ptr<stage::Stage> stage_;  ///< of all kinds beside each other
   std::size_t shown_kinds_ = 0;          ///< how many of them
 };
 

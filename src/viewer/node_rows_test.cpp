@@ -6,7 +6,7 @@
 
 #include "base/test_folder.h"
 #include "formats/gltf/gltf_writer.h"
-#include "house/rooms.h"
+#include "rooms/rooms.h"
 #include "scene/action/actions.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/attribute.h"
@@ -29,12 +29,13 @@ class NodeRowsTest : public testing::Test {
   NodeRowsTest() {
     EXPECT_TRUE(scene::write_gltf(folder_.path() / "box.glb",
                                   *scene::model_of(scene::box(glm::vec3(0.0f), glm::vec3(1.0f)), {})));
-    Result<house::Play> play = house::open_play(house::all_rooms(), folder_.write("scene.xp", script), {});
-    EXPECT_TRUE(play) << to_string(play.errors());
-    if (play) play_ = std::make_unique<house::Play>(*std::move(play));
+    Result<stage::Simulation> simulation =
+        stage::open_simulation(rooms::all_registries(), folder_.write("scene.xp", script), {});
+    EXPECT_TRUE(simulation) << to_string(simulation.errors());
+    if (simulation) simulation_ = std::make_unique<stage::Simulation>(*std::move(simulation));
   }
 
-  scene::LiveScene& live() { return play_->live(); }
+  scene::LiveScene& live() { return simulation_->live(); }
   const scene::Node& node(const std::string& name) { return *live().find(name); }
 
   /// "group trees" for each row, a dash before it for each level.
@@ -53,7 +54,7 @@ class NodeRowsTest : public testing::Test {
   }
 
   TestFolder folder_;
-  std::unique_ptr<house::Play> play_;
+  std::unique_ptr<stage::Simulation> simulation_;
 };
 
 TEST_F(NodeRowsTest, ShowWhatIsOpen) {
@@ -115,7 +116,7 @@ TEST_F(NodeRowsTest, EditsAreValuesThatTheNodeTakes) {
   const auto edited = [this](const char* of, const char* attribute, std::array<double, 3> numbers) {
     AttributeRow edit = row(of, attribute);
     edit.numbers = numbers;
-    return play_->clock.send(node(of), *edit.schema, *edited_value(edit));
+    return simulation_->clock.send(node(of), *edit.schema, *edited_value(edit));
   };
   const double third = double(1.0f / 3.0f);
   EXPECT_TRUE(edited("oak", "position", {third, -2, 1e-3}));
@@ -124,10 +125,10 @@ TEST_F(NodeRowsTest, EditsAreValuesThatTheNodeTakes) {
   EXPECT_TRUE(edited("trees", "visible", {1}));
   const Status refused = edited("%sun", "elevation_deg", {200});
   EXPECT_NE(to_string(refused.errors()).find("from -90 to 90"), std::string::npos);
-  play_->advance(0.1);
+  simulation_->advance(0.1);
   EXPECT_EQ(row("oak", "position").numbers[0], third) << "every bit of it";
   EXPECT_NEAR(row("%sun", "elevation_deg").numbers[0], 12.5, 1e-9);
-  EXPECT_EQ(play_->scene.sun.irradiance, glm::vec3(1, 2, 3));
+  EXPECT_EQ(simulation_->scene.sun.irradiance, glm::vec3(1, 2, 3));
   EXPECT_EQ(row("trees", "visible").numbers[0], 1.0);
 }
 
@@ -151,7 +152,7 @@ TEST_F(NodeRowsTest, AnEmptyTextIsRefusedWhereAValueIsNeeded) {
 
 /// The panel can edit whatever is live in any node type there is.
 TEST_F(NodeRowsTest, EveryLiveAttributeTakesBackItsOwnValue) {
-  for (const scene::NodeType& type : house::node_registry().types())
+  for (const scene::NodeType& type : rooms::node_registry().types())
     for (const scene::AttributeSchema& schema : type.schema.attributes) {
       EXPECT_FALSE(drag_style(schema).format.empty());
       if (!schema.is_live) continue;

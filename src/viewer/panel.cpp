@@ -194,7 +194,7 @@ void Panel::draw_light(Visit& visit) {
                  "0 sketch, 0.25 white model, 0.5 plain colours, 0.75 materials, 1 everything"))
     visit.set_realism(realism);
 
-  const methods::Registry& registry = visit.stage().house().get<methods::Registry>();
+  const methods::Registry& registry = visit.stage().registries().get<methods::Registry>();
   std::vector<std::string> names = registry.names();
   names.insert(names.begin(), methods::automatic);
   std::vector<std::string> shown(names.size());

@@ -58,7 +58,7 @@ std::optional<glm::vec3> step_on_foot(design::SceneSurfaces& surfaces, glm::vec3
 Planning::Planning(Visit& visit, planner::Language language)
     : visit_(visit),
       language_(language),
-      surfaces_(std::make_shared<design::SceneSurfaces>(visit.stage().play().scene)) {}
+      surfaces_(std::make_shared<design::SceneSurfaces>(visit.stage().simulation().scene)) {}
 
 std::vector<std::string> Planning::designs() const {
   std::vector<std::string> names;
@@ -83,17 +83,18 @@ const std::vector<planner::PlanSegment>& Planning::plan_lines() {
 
 /// False: it cannot be opened, and the one that was open stays.
 bool Planning::open(const std::string& design) {
-  house::Play& play = visit_.stage().play();
+  stage::Simulation& simulation = visit_.stage().simulation();
   const auto heights = [surfaces = surfaces_](glm::dvec2 at, const design::Names& without) {
     return surfaces->resting_height(at, without);
   };
-  Result<design::Session> session = design::Session::open(play.scene, play.live(), design, heights);
+  Result<design::Session> session =
+      design::Session::open(simulation.scene, simulation.live(), design, heights);
   if (!session) return tell(session.errors());
-  desk_ = std::make_unique<Desk>(play, *std::move(session), *surfaces_);
+  desk_ = std::make_unique<Desk>(simulation, *std::move(session), *surfaces_);
   desk_->tool.set_plan(plan_lines());
-  if (play.scene.file.empty()) return true;
+  if (simulation.scene.file.empty()) return true;
   const Result<std::string> restored =
-      desk_->session.keep_journal(design::journal_file(play.scene.file, desk_->session.name()));
+      desk_->session.keep_journal(design::journal_file(simulation.scene.file, desk_->session.name()));
   if (!restored)
     visit_.notice_error(to_string(restored.errors()));
   else if (!restored->empty())
@@ -167,7 +168,7 @@ void Planning::take_file(const std::filesystem::path& file) {
   if (!is_on_) turn_on(true);
   if (!desk_) return;
   const Result<design::OwnKind> kind =
-      design::import_kind(visit_.stage().house().get<formats::Readers>(), visit_.scene(), file);
+      design::import_kind(visit_.stage().registries().get<formats::Readers>(), visit_.scene(), file);
   if (!kind) return visit_.notice_error(to_string(kind.errors()));
   if (!tell(desk_->session.run(design::Command(kind->command)))) return;
   visit_.notice(kind->note);

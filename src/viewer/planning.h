@@ -107,8 +107,8 @@ class Planning {
   struct Desk {
     design::Session session;
     planner::Tool tool;
-    Desk(house::Play& play, design::Session opened, design::SceneSurfaces& surfaces)
-        : session(std::move(opened)), tool(play.scene, play.live(), session, surfaces) {}
+    Desk(stage::Simulation& simulation, design::Session opened, design::SceneSurfaces& surfaces)
+        : session(std::move(opened)), tool(simulation.scene, simulation.live(), session, surfaces) {}
   };
   bool open(const std::string& design);
   std::string name_of_view(int number) const;

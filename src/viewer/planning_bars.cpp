@@ -52,7 +52,7 @@ std::string joined(const design::Names& names) { return fmt::format("{}", fmt::j
 PlanningBars::PlanningBars(const ImguiContext& imgui, Planning& planning, std::filesystem::path pictures)
     : imgui_(imgui),
       planning_(planning),
-      pictures_(planning.visit().stage().house(), planning.visit().scene(), std::move(pictures)) {}
+      pictures_(planning.visit().stage().registries(), planning.visit().scene(), std::move(pictures)) {}
 
 /// A button of a bar; lit where it says what is so.
 bool PlanningBars::button(const std::string& name, const char* key, bool is_lit, float width) {

@@ -9,7 +9,7 @@
 #include "base/test_folder.h"
 #include "formats/gltf/gltf_writer.h"
 #include "graphics/gl/test_context.h"
-#include "house/rooms.h"
+#include "rooms/rooms.h"
 #include "scene/data/test_scene.h"
 #include "viewer/visit.h"
 
@@ -58,9 +58,10 @@ class SquareTest : public gl::ContextTest {
     write("hotel.glb", scene::box({-6, -3, 0}, {6, 3, 7}), {0.55f, 0.50f, 0.42f});
     write("tree.glb", scene::sphere({0, 0, 3}, 1.6f), {0.10f, 0.25f, 0.06f});
     write("car.glb", scene::box({-2.1f, -0.9f, 0.2f}, {2.1f, 0.9f, 1.4f}), {0.40f, 0.05f, 0.04f});
-    Result<house::Play> play = house::open_play(house::all_rooms(), folder_.write("square.xp", script), {});
-    ASSERT_TRUE(play) << to_string(play.errors());
-    Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(*std::move(play));
+    Result<stage::Simulation> simulation =
+        stage::open_simulation(rooms::all_registries(), folder_.write("square.xp", script), {});
+    ASSERT_TRUE(simulation) << to_string(simulation.errors());
+    Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(*std::move(simulation));
     ASSERT_TRUE(stage) << to_string(stage.errors());
     stage_ = *std::move(stage);
     const Result<Camera> start = stage_->camera("");
@@ -86,7 +87,7 @@ class SquareTest : public gl::ContextTest {
   }
 
   TestFolder folder_;
-  std::unique_ptr<house::Stage> stage_;
+  std::unique_ptr<stage::Stage> stage_;
   std::unique_ptr<Visit> visit_;
 };
 

@@ -27,7 +27,7 @@ glm::vec2 azimuth_and_elevation_deg(glm::vec3 direction) {
           glm::degrees(std::asin(std::clamp(unit.z, -1.0f, 1.0f)))};
 }
 
-Visit::Visit(house::Stage& stage, const Camera& start, PicturePlace pictures)
+Visit::Visit(stage::Stage& stage, const Camera& start, PicturePlace pictures)
     : stage_(stage), navigation_(start), pictures_(std::move(pictures)) {
   for (const scene::Object& object : scene().objects)
     if (object.is_dynamic) first_places_.emplace(object.name, object.world_from_model[3]);
@@ -38,7 +38,7 @@ void Visit::step(const Controls& controls, float passed_s, bool stands_still) {
   const float seconds = std::min(passed_s, longest_step_s);
   std::erase_if(notices_, [this](const Notice& notice) { return notice.ends_s < time_s_; });
   const double scene_s = stands_still ? 0.0 : double(seconds);
-  for (const Error& warning : stage_.play().advance(scene_s, camera().position_in_world()))
+  for (const Error& warning : stage_.simulation().advance(scene_s, camera().position_in_world()))
     notice_error(to_string(warning));
   follow_guidance(controls);
   const bool has_vehicle = followed_ >= 0 && followed_ < int(scene().objects.size());
@@ -86,7 +86,7 @@ void Visit::follow_next_vehicle() {
 
 void Visit::look_from(const std::string& camera) {
   if (const scene::Node* node = live().find(camera); node && node->schema->type == "camera")
-    return report(stage_.play().clock.send(*node, "look"), "");
+    return report(stage_.simulation().clock.send(*node, "look"), "");
   const Result<Camera> found = stage_.camera(camera);
   if (!found) return notice_error(to_string(found.errors()));
   actions().release_view();
@@ -126,16 +126,16 @@ const scene::Node* Visit::node_at(glm::ivec2 pixel) {
 }
 
 void Visit::probe(glm::ivec2 pixel) {
-  notice(to_string(house::probe(scene(), camera(), {stage_.width(), stage_.height()}, pixel), scene()));
+  notice(to_string(stage::probe(scene(), camera(), {stage_.width(), stage_.height()}, pixel), scene()));
 }
 
 Status Visit::tell(const scene::Node& node, const std::string& message) {
-  return stage_.play().clock.send(node, message);
+  return stage_.simulation().clock.send(node, message);
 }
 
 Status Visit::tell(const scene::Node& node, const scene::AttributeSchema& attribute,
                    scene::AttributeValue value) {
-  return stage_.play().clock.send(node, attribute, std::move(value));
+  return stage_.simulation().clock.send(node, attribute, std::move(value));
 }
 
 void Visit::set(const char* type, const char* attribute, scene::AttributeValue value) {
@@ -174,7 +174,7 @@ void Visit::step_realism(int steps) {
 void Visit::set_reflection(const std::string& method) { set("reflection", "method", method); }
 
 std::vector<action::Process*> Visit::processes() const {
-  std::vector<action::Process*> all = stage_.play().clock.processes();
+  std::vector<action::Process*> all = stage_.simulation().clock.processes();
   std::erase_if(all, [](const action::Process* process) { return process->status().empty(); });
   return all;
 }
@@ -182,18 +182,18 @@ std::vector<action::Process*> Visit::processes() const {
 bool Visit::is_halted() const {
   const std::vector<action::Process*> all = processes();
   return !all.empty() && std::ranges::all_of(all, [&](const action::Process* process) {
-    return stage_.play().clock.is_paused(*process);
+    return stage_.simulation().clock.is_paused(*process);
   });
 }
 
 void Visit::halt(bool halts) {
-  for (const action::Process* process : processes()) stage_.play().clock.pause(*process, halts);
+  for (const action::Process* process : processes()) stage_.simulation().clock.pause(*process, halts);
 }
 
 void Visit::step_halted() {
   halt(true);
   for (action::Process* process : processes())
-    stage_.play().clock.step_alone(scene(), *process, halted_step_s);
+    stage_.simulation().clock.step_alone(scene(), *process, halted_step_s);
 }
 
 void Visit::take_picture() {

@@ -34,7 +34,7 @@ struct PicturePlace {
 class Visit {
  public:
   /// The stage must outlive the visit.
-  Visit(house::Stage& stage, const Camera& start, PicturePlace pictures);
+  Visit(stage::Stage& stage, const Camera& start, PicturePlace pictures);
 
   /// Advances the scene by `passed_s`, but at most by a second: after a pause of the program it continues
   /// where it stopped. The visitor moves for a tenth of a second at most.
@@ -117,10 +117,10 @@ class Visit {
   /// The notices to be displayed now, oldest first.
   const std::vector<Notice>& notices() const { return notices_; }
 
-  house::Stage& stage() { return stage_; }                         ///< as given
-  const scene::Scene& scene() const { return stage_.scene(); }     ///< the stage's
-  action::Actions& actions() { return stage_.play().actions(); }   ///< events, messages and tours
-  scene::LiveScene& live() const { return stage_.play().live(); }  ///< nodes and scenarios
+  stage::Stage& stage() { return stage_; }                               ///< as given
+  const scene::Scene& scene() const { return stage_.scene(); }           ///< the stage's
+  action::Actions& actions() { return stage_.simulation().actions(); }   ///< events, messages and tours
+  scene::LiveScene& live() const { return stage_.simulation().live(); }  ///< nodes and scenarios
 
  private:
   void set(const char* type, const char* attribute, scene::AttributeValue value);
@@ -128,7 +128,7 @@ class Visit {
   void report(const Status& status, const std::string& done);
   void add_notice(Notice notice);
 
-  house::Stage& stage_;
+  stage::Stage& stage_;
   Navigation navigation_;
   PicturePlace pictures_;
   int followed_ = -1;

@@ -117,7 +117,7 @@ void print_keys() {
 /// The loop over frames.
 class Frames {
  public:
-  Frames(GLFWwindow* window, house::Stage& stage, const Camera& start, const WindowOptions& options)
+  Frames(GLFWwindow* window, stage::Stage& stage, const Camera& start, const WindowOptions& options)
       : window_(window),
         options_(options),
         scale_(scale_of(window)),
@@ -159,7 +159,7 @@ class Frames {
       if (frame == settling_frames) settled = Clock::now();
       if (is_last) {
         print_rate(frame - settling_frames, std::chrono::duration<double>(Clock::now() - settled).count());
-        return Done{};
+        return Ok{};
       }
       if (rests_) glfwWaitEventsTimeout(rest_s);
     }
@@ -184,7 +184,7 @@ class Frames {
     panel_.draw(visit_, statistics_);
     bars_.draw(ImGui::GetIO().DisplaySize.x - panel_.width());
 
-    house::Stage& stage = visit_.stage();
+    stage::Stage& stage = visit_.stage();
     const int covered = int(panel_.width() * scale_.pixels_per_point);
     const int shown_width = std::max(width_ - covered, 1);
     stillness_.add_frame(stage.scene(), visit_.camera(), shown_width, height_, passed_s);
@@ -222,15 +222,15 @@ class Frames {
     told_samples_ = samples;
     const std::string refined =
         samples == 0 ? ""
-        : samples == house::Refinement::max_samples
+        : samples == stage::Refinement::max_samples
             ? fmt::format(": reference picture, {} rays per pixel", samples)
-            : fmt::format(": refining, {} of {} rays per pixel", samples, house::Refinement::max_samples);
+            : fmt::format(": refining, {} of {} rays per pixel", samples, stage::Refinement::max_samples);
     glfwSetWindowTitle(window_, (title_of(options_) + refined).c_str());
   }
 
   GLFWwindow* window_;
   const WindowOptions& options_;
-  house::Stillness stillness_;
+  stage::Stillness stillness_;
   bool rests_ = false;  ///< in the last frame
   int told_samples_ = 0;
   Scale scale_;
@@ -258,12 +258,12 @@ bool begins_at_once(const WindowOptions& options) {
   return options.max_frames == 0 || options.always_holds_rate;
 }
 
-Status show(house::Play play, const WindowOptions& options) {
+Status show(stage::Simulation simulation, const WindowOptions& options) {
   Glfw glfw;
   if (Status status = open_window(glfw, options); !status) return status;
   show_opening(glfw.window, options);
-  play.scene.data<methods::Pace>().begins_at_once = begins_at_once(options);
-  Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(std::move(play));
+  simulation.scene.data<methods::Pace>().begins_at_once = begins_at_once(options);
+  Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(std::move(simulation));
   if (!stage) return stage.errors();
   const Result<Camera> start = (*stage)->camera(options.camera);
   if (!start) return start.errors();

@@ -32,8 +32,8 @@ double rate_of(const WindowOptions& options, bool is_software);
 /// Whether the first picture may be a cheaper one (methods::Pace): not where pictures can be repeated.
 bool begins_at_once(const WindowOptions& options);
 
-/// Opens the window, makes a stage of the play and shows it until the window is closed. Fails where there is
-/// no display or no OpenGL 4.5.
-Status show(house::Play play, const WindowOptions& options);
+/// Opens the window, makes a stage of the simulation and shows it until the window is closed. Fails where
+/// there is no display or no OpenGL 4.5.
+Status show(stage::Simulation simulation, const WindowOptions& options);
 
 }  // namespace parvis::viewer

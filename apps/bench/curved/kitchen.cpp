@@ -32,7 +32,7 @@ namespace {
 constexpr int samples_per_pixel = 16;
 
 /// FLIP to the ray tracer inside what mirrors or refracts, by the stage's own method over the baseline.
-void measure_beside_rerendered(house::Stage& stage, std::span<const char* const> cameras, glm::ivec2 size,
+void measure_beside_rerendered(stage::Stage& stage, std::span<const char* const> cameras, glm::ivec2 size,
                                const std::string& key, Report& report) {
   const std::vector<JudgedMethod> methods =
       judged_methods(stage, {{"virtual objects", methods::settings(stage.scene())},
@@ -232,7 +232,7 @@ std::vector<std::pair<std::string, methods::Settings>> ways_to_reflect(const sce
   return variants;
 }
 
-void measure_view(house::Stage& stage, const std::vector<JudgedMethod>& methods, const char* name,
+void measure_view(stage::Stage& stage, const std::vector<JudgedMethod>& methods, const char* name,
                   Report& report) {
   const Camera camera = must(stage.camera(name));
   std::vector<std::vector<double>> frame_s(methods.size()), processor_s(methods.size());
@@ -253,7 +253,7 @@ void measure_view(house::Stage& stage, const std::vector<JudgedMethod>& methods,
 
 /// Notes the time of a frame of the kitchen with every vertex searched for, with its grids, and with cube
 /// maps.
-void note_frames(house::Stage& stage, Report& report) {
+void note_frames(stage::Stage& stage, Report& report) {
   const std::vector<JudgedMethod> methods = judged_methods(stage, ways_to_reflect(stage.scene()));
   for (const char* name : timed_cameras) measure_view(stage, methods, name, report);
 }
@@ -282,7 +282,7 @@ double reached_px(std::vector<double> p99_of_views) {
 
 /// `kitchen_p99_px`: the 99th percentile of a view's pixels, extra and missed points among them, that four of
 /// the five views reach.
-void measure_points(const house::Stage& stage, const BenchSetup& setup, Report& report) {
+void measure_points(const stage::Stage& stage, const BenchSetup& setup, Report& report) {
   const ReflectedPoints reflected = ReflectedPoints::make(stage.scene());
   std::vector<double> p99_of_views, p99_of_control;
   for (const char* name : cameras) {
@@ -298,12 +298,12 @@ void measure_points(const house::Stage& stage, const BenchSetup& setup, Report& 
   report.add("kitchen_p99_px_of_nine_midpoint_steps", reached_px(std::move(p99_of_control)));
 }
 
-std::unique_ptr<house::Stage> open_kitchen(const BenchSetup& setup, const char* script) {
+std::unique_ptr<stage::Stage> open_kitchen(const BenchSetup& setup, const char* script) {
   must(kitchen::write_kitchen(setup.folder / "kitchen", 1));
-  house::Play play = setup.play(setup.folder / "kitchen" / script);
+  stage::Simulation simulation = setup.simulation(setup.folder / "kitchen" / script);
   // Once for all: the points, the stage and the method that is judged each need them.
-  must(reflector_maps::bake_reflectors(play.scene));
-  return stage_of(std::move(play));
+  must(reflector_maps::bake_reflectors(simulation.scene));
+  return stage_of(std::move(simulation));
 }
 
 }  // namespace

@@ -85,8 +85,8 @@ constexpr std::array places{Place{{-0.2f, -2.2f, 1.2f}, {-0.6f, 0.0f, 0.8f}},
                             Place{{-2.6f, 0.9f, 1.3f}, {0.3f, 0.4f, 0.8f}}};
 
 /// The ray tracer's picture of a view with as many bounces.
-reference::TracedPicture truth_of(house::Stage& stage, const Camera& camera, glm::ivec2 size, int bounces) {
-  methods::settings(stage.play().scene).bounces = bounces;
+reference::TracedPicture truth_of(stage::Stage& stage, const Camera& camera, glm::ivec2 size, int bounces) {
+  methods::settings(stage.simulation().scene).bounces = bounces;
   return stage.trace(camera, size.x, size.y, samples_per_pixel);
 }
 
@@ -152,7 +152,7 @@ reference::PixelWindow window_of_bonnet(const Camera& camera, int w, int h) {
 void measure_two_bounces(const BenchSetup& setup, Report& report) {
   const glm::ivec2 size = setup.is_quick ? glm::ivec2(480, 360) : glm::ivec2(960, 720);
   const auto made = stage_of(mirrors_among_boxes());
-  house::Stage& stage = *made;
+  stage::Stage& stage = *made;
   const methods::Settings twice = methods::settings(stage.scene());
   methods::Settings once = twice;
   once.bounces = 1;
@@ -191,20 +191,20 @@ void measure_two_bounces(const BenchSetup& setup, Report& report) {
 void measure_bonnet(const BenchSetup& setup, Report& report) {
   const glm::ivec2 size = setup.is_quick ? glm::ivec2(640, 400) : glm::ivec2(960, 600);
   const auto made = stage_of(street());
-  house::Stage& stage = *made;
+  stage::Stage& stage = *made;
   methods::Settings near = methods::settings(stage.scene());
   near.own.get<reflector_maps::NearObjectSettings>().within_m = virtual_within_m;
   const std::vector<JudgedMethod> methods =
       judged_methods(stage, {{"with virtual objects", near}, {"maps", methods::settings(stage.scene())}});
   std::array<double, 2> sums{};
   for (const Meeting& meeting : meetings) {
-    stage.play().scene.objects.back().world_from_model =
+    stage.simulation().scene.objects.back().world_from_model =
         glm::translate(glm::mat4(1.0f), glm::vec3(meeting.person, 0.0f));
     Camera camera;
     camera.vertical_fov = 0.75f;
     camera.world_from_camera = look_at(meeting.eye, bonnet.centre());
     const reference::PixelWindow window = window_of_bonnet(camera, size.x, size.y);
-    scene::Object& person = stage.play().scene.objects.back();
+    scene::Object& person = stage.simulation().scene.objects.back();
     person.is_visible = false;
     const reference::TracedPicture empty = stage.trace(camera, size.x, size.y, samples_per_pixel, window);
     person.is_visible = true;

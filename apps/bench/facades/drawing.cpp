@@ -188,7 +188,7 @@ TimedScene unlit_scene(std::shared_ptr<const PackedFacade> facade) {
   render::Drawables drawables;
   drawables.add(plain_texture_kind(std::move(facade)));
   scene::Scene scene;
-  drawables.furnish(scene);
+  drawables.attach(scene);
   return TimedScene::create(std::move(scene), drawables);
 }
 
@@ -197,7 +197,7 @@ TimedScene facade_scene(const facades::PlacedFacade& placed, facades::Compared c
   drawables.add(facades::facades_kind(compared));
   scene::Scene scene;
   scene.data<scene::ItemsOf<facades::PlacedFacade>>().add(placed, 0);
-  drawables.furnish(scene);
+  drawables.attach(scene);
   return TimedScene::create(std::move(scene), drawables);
 }
 

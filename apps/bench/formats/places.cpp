@@ -118,7 +118,7 @@ Image8 pixels_of_place(const scene::Scene& scene, const Camera& camera, int widt
 
 /// FLIP of a drawn picture, and of a black one, against the ray tracer's, over the pixels that show the
 /// place, at an eighth of its size.
-std::pair<double, double> flip_to_traced(house::Stage& stage, const Camera& camera, const Image8& picture) {
+std::pair<double, double> flip_to_traced(stage::Stage& stage, const Camera& camera, const Image8& picture) {
   constexpr int coarser = 8, samples_per_pixel = 8;
   const Image8 drawn = reduced(picture, coarser);
   const Image8 place = pixels_of_place(stage.scene(), camera, drawn.width, drawn.height);
@@ -227,17 +227,18 @@ std::string kind_of(const fs::path& file) {
 }
 
 dressing::WrittenScene scene_of(const fs::path& file, const BenchSetup& setup) {
-  return must(dressing::write_bare_scene(file, house::all_rooms().get<formats::Readers>(), setup.folder));
+  return must(
+      dressing::write_bare_scene(file, rooms::all_registries().get<formats::Readers>(), setup.folder));
 }
 
 void measure_street(const BenchSetup& setup, const fs::path& file, Totals& totals, Report& report) {
   dressing::WrittenScene written;
-  std::unique_ptr<house::Stage> stage;
+  std::unique_ptr<stage::Stage> stage;
   Image8 picture;
   const std::clock_t before = std::clock();
   const double minutes = milliseconds([&] {
                            written = scene_of(file, setup);
-                           stage = stage_of(setup.play(written.script, {&written.data_folder, 1}));
+                           stage = stage_of(setup.simulation(written.script, {&written.data_folder, 1}));
                            stage->draw(must(stage->camera("street")), 1280, 720);
                            picture = stage->picture();
                          }) /
@@ -404,7 +405,7 @@ void measure_place_files(const BenchSetup& setup, Report& report) {
   if (!fs::exists(pavilion))
     return report.skip("ifc_load_ms", "scenes/pavilion.ifc is not in the working folder");
   report.add("ifc_load_ms", median(samples_of([&] {
-               must(house::all_rooms().get<formats::Readers>().read(pavilion, {}, warnings));
+               must(rooms::all_registries().get<formats::Readers>().read(pavilion, {}, warnings));
              })));
 }
 

@@ -82,9 +82,9 @@ constexpr std::array faults{
 /// Whether loading a script warns in these words.
 bool warns(const fs::path& script, const std::string& text, const char* words) {
   must(write_file(script, text));
-  const scene::LoadedScene loaded = must(scene::load_scene(script, house::node_registry(), {}));
+  const scene::LoadedScene loaded = must(scene::load_scene(script, rooms::node_registry(), {}));
   Errors warnings = loaded.warnings;
-  for (const Error& warning : house::check_place(loaded.scene)) warnings.push_back(warning);
+  for (const Error& warning : stage::check_place(loaded.scene)) warnings.push_back(warning);
   return to_string(warnings).find(words) != std::string::npos;
 }
 

@@ -94,7 +94,7 @@ void measure_reading(const BenchSetup& setup, Report& report) {
   const std::string text = long_script(5'000);
   must(write_file(script, text));
   report.add("script_mb_s", mb_per_s(double(text.size()), repeats,
-                                     [&] { must(scene::check_scene(script, house::node_registry())); }));
+                                     [&] { must(scene::check_scene(script, rooms::node_registry())); }));
   const auto data = shared_data("", fs::current_path());
   if (!data) return report.skip("cityjson_mb_s", "the shared data is absent");
   std::vector<fs::path> cities;
@@ -116,9 +116,9 @@ void measure_reading(const BenchSetup& setup, Report& report) {
 
 void measure_scenarios(const BenchSetup& setup, Report& report) {
   must(write_file(setup.city() / "project.xp", project));
-  house::Play play = setup.play(setup.city() / "project.xp");
-  play.advance(8.0);
-  const auto stage = stage_of(std::move(play));
+  stage::Simulation simulation = setup.simulation(setup.city() / "project.xp");
+  simulation.advance(8.0);
+  const auto stage = stage_of(std::move(simulation));
   const Camera camera = must(stage->camera("street"));
   const auto frame_ms = [&] {
     return milliseconds([&] {
@@ -138,10 +138,10 @@ void measure_scenarios(const BenchSetup& setup, Report& report) {
 
 void measure_photographs(const BenchSetup& setup, Report& report) {
   constexpr int width = 1280, height = 960, samples = 64, quick_samples = 4;
-  house::Play play = setup.play(setup.city() / "paper.xp");
-  play.advance(8.0);  // so that cars have reached the crossing
-  const Camera camera = must(play.camera("crossing"));
-  const scene::Scene& scene = play.scene;
+  stage::Simulation simulation = setup.simulation(setup.city() / "paper.xp");
+  simulation.advance(8.0);  // so that cars have reached the crossing
+  const Camera camera = must(simulation.camera("crossing"));
+  const scene::Scene& scene = simulation.scene;
   const reference::RayScene rays(scene);
   reference::PhotographOptions options;
   options.samples_per_pixel = setup.is_quick ? quick_samples : samples;
@@ -160,7 +160,7 @@ void measure_isolation(const BenchSetup& setup, Report& report) {
   Image8 image(4096, 2160, 3);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = std::uint8_t(i * 2654435761u >> 24);
   must(write_image(picture, image));
-  const formats::Readers& readers = house::all_rooms().get<formats::Readers>();
+  const formats::Readers& readers = rooms::all_registries().get<formats::Readers>();
   Errors warnings;
   const auto isolated = [&](const fs::path& file) {
     return [&, file] { return readers.read(file, {}, warnings).ok(); };

@@ -212,7 +212,7 @@ Exchanged exchanged_renderer_of(const scene::Scene& scene) {
     light = made.get();
     return std::unique_ptr<render::LightSource>(std::move(made));
   };
-  auto renderer = must(render::Renderer::create(scene, house::drawables(), make));
+  auto renderer = must(render::Renderer::create(scene, rooms::drawables(), make));
   return {std::move(renderer), light};
 }
 
@@ -347,8 +347,9 @@ void measure_night(const BenchSetup& setup, Report& report) {
   if (city.cameras.empty()) fail("the scene has no cameras to photograph by night");
   scene::Scene night = city;
   set_hour(night, nightfall_h);
-  const house::Play play = house::make_play(house::all_rooms(), std::move(night));  // with traffic
-  const scene::Scene& lit = play.scene;
+  const stage::Simulation simulation =
+      stage::make_simulation(rooms::all_registries(), std::move(night));  // with traffic
+  const scene::Scene& lit = simulation.scene;
   const std::size_t still = reference::lit_lamps(lit, reference::LampKind::still).size(),
                     moving = reference::lit_lamps(lit, reference::LampKind::moving).size();
   if (still == 0 || moving == 0)

@@ -36,14 +36,14 @@ class CrownCity {
   /// Moves the crown to a place east and north of the main crossing; `advance` shows it.
   void move(glm::vec2 from_crossing_m);
   /// A message to the scene's dayLight. Fails as SceneClock::send.
-  void send_to_sky(const std::string& message) { must(play_.clock.send("%dayLight", message)); }
+  void send_to_sky(const std::string& message) { must(simulation_.clock.send("%dayLight", message)); }
   void advance();
   /// Advances, and finishes what is spread over frames to come.
   void settle();
 
   /// The crown's index in the scene.
   int object() const { return int(crown_); }
-  const scene::Scene& scene() const { return play_.scene; }
+  const scene::Scene& scene() const { return simulation_.scene; }
   /// Irradiance of the crown's vertices, as renderers have it now.
   std::vector<glm::vec3> light() const;
   /// The same vertices where they stand now, in the same order.
@@ -61,9 +61,10 @@ class CrownCity {
   scene::Scene casters(bool with_crown) const;
 
  private:
-  CrownCity(house::Play play, std::size_t crown) : play_(std::move(play)), crown_(crown) {}
+  CrownCity(stage::Simulation simulation, std::size_t crown)
+      : simulation_(std::move(simulation)), crown_(crown) {}
 
-  house::Play play_;
+  stage::Simulation simulation_;
   std::size_t crown_;  ///< index of the object
 };
 
@@ -122,33 +123,33 @@ CrownCity CrownCity::open(const BenchSetup& setup, const char* how_lit) {
       "grab=1) }}\n",
       how_lit, crown_name);
   must(write_file(script, text));
-  house::Play play = setup.play(script);
-  for (std::size_t o = 0; o < play.scene.objects.size(); ++o)
-    if (play.scene.objects[o].name == crown_name) return CrownCity(std::move(play), o);
+  stage::Simulation simulation = setup.simulation(script);
+  for (std::size_t o = 0; o < simulation.scene.objects.size(); ++o)
+    if (simulation.scene.objects[o].name == crown_name) return CrownCity(std::move(simulation), o);
   fail("the scene has no object \"{}\"", crown_name);
 }
 
 void CrownCity::move(glm::vec2 from_crossing_m) {
-  play_.scene.objects[crown_].world_from_model =
+  simulation_.scene.objects[crown_].world_from_model =
       glm::translate(glm::mat4(1.0f), glm::vec3(city::main_crossing() + from_crossing_m, 0.0f));
 }
 
-void CrownCity::advance() { play_.advance(frame_s); }
+void CrownCity::advance() { simulation_.advance(frame_s); }
 
 void CrownCity::settle() {
   advance();
-  play_.settle();
+  simulation_.settle();
 }
 
 std::vector<glm::vec3> CrownCity::light() const {
   std::vector<glm::vec3> all;
-  for (const auto& part : play_.scene.data<scene::VertexIrradiance>().of(crown_)->parts)
+  for (const auto& part : simulation_.scene.data<scene::VertexIrradiance>().of(crown_)->parts)
     all.insert(all.end(), part.front.begin(), part.front.end());
   return all;
 }
 
 std::vector<light::LitVertex> CrownCity::vertices() const {
-  const scene::Object& object = play_.scene.objects[crown_];
+  const scene::Object& object = simulation_.scene.objects[crown_];
   const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
   std::vector<light::LitVertex> vertices;
   for (const scene::Part& part : object.model->parts) {
@@ -198,7 +199,7 @@ void CrownCity::stands_free_in_sun(glm::vec3 to_sun) const {
 }
 
 scene::Scene CrownCity::casters(bool with_crown) const {
-  scene::Scene casters = play_.scene;
+  scene::Scene casters = simulation_.scene;
   casters.sky.picture = {};
   for (std::size_t o = 0; o < casters.objects.size(); ++o)
     if (o == crown_)

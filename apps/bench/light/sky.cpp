@@ -158,25 +158,25 @@ constexpr int clouds_px = 2048;  // across, as those of the paper's city
 /// bounced light, which follow a new sun too, have keys of their own.
 class PassingDay {
  public:
-  /// `more`: nodes beside dayLight. Fails as house::open_play, or if a shader does.
+  /// `more`: nodes beside dayLight. Fails as stage::open_simulation, or if a shader does.
   static PassingDay open(const BenchSetup& setup, const std::filesystem::path& script,
                          const std::string& more) {
     must(write_file(script, "dayLight(timeOfDay=8)\n" + more));
-    house::Play play = setup.play(script);
-    auto light = must(house::all_rooms().get<render::Lights>().make(
-        play.scene, render::bounds_of_fixed_parts(play.scene, false)));
-    return PassingDay(std::move(play), std::move(light));
+    stage::Simulation simulation = setup.simulation(script);
+    auto light = must(rooms::all_registries().get<render::Lights>().make(
+        simulation.scene, render::bounds_of_fixed_parts(simulation.scene, false)));
+    return PassingDay(std::move(simulation), std::move(light));
   }
 
   /// The frame in which dayLight has received a message: how long its sky takes. Fails where the message
   /// does, and where the sky that is shown is the same as before.
   double change(const std::string& message) {
     const auto before = light_->sky().irradiance_sh;
-    must(play_.clock.send("%dayLight", message));
+    must(simulation_.clock.send("%dayLight", message));
     glFinish();
     const double ms = milliseconds([&] {
-      play_.advance(frame_s);
-      light_->update(play_.scene);
+      simulation_.advance(frame_s);
+      light_->update(simulation_.scene);
       glFinish();
     });
     if (light_->sky().irradiance_sh == before) fail("\"{}\" has not changed the sky", message);
@@ -194,10 +194,10 @@ class PassingDay {
   }
 
  private:
-  PassingDay(house::Play play, std::unique_ptr<render::LightSource> light)
-      : play_(std::move(play)), light_(std::move(light)) {}
+  PassingDay(stage::Simulation simulation, std::unique_ptr<render::LightSource> light)
+      : simulation_(std::move(simulation)), light_(std::move(light)) {}
 
-  house::Play play_;
+  stage::Simulation simulation_;
   std::unique_ptr<render::LightSource> light_;
 };
 

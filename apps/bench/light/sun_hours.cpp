@@ -116,7 +116,7 @@ sun_hours::SunPeriod hourly(sun_hours::SunPeriod period) {
 }
 
 /// Measures the ground below the leaves of crowns, which let some sun through, in the city as it ships. The
-/// truth are rays of the house's own tracer at each minute: the other one knows no leaves.
+/// truth are rays of Parvis's own tracer at each minute: the other one knows no leaves.
 void measure_under_trees(const std::vector<int>& days, const scene::Scene& city, Report& report) {
   scene::Scene still = city;
   std::erase_if(still.objects, [](const scene::Object& object) { return object.is_dynamic; });

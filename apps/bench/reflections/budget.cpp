@@ -20,7 +20,7 @@ struct FrameTime {
 };
 
 /// Draws the frame of now behind a car.
-FrameTime timed_frame(house::Stage& stage, const JudgedMethod& method, glm::ivec2 size) {
+FrameTime timed_frame(stage::Stage& stage, const JudgedMethod& method, glm::ivec2 size) {
   const Camera camera = must(stage.camera("follow"));
   render::Renderer& renderer = stage.renderer();
   FrameTime time;
@@ -42,14 +42,14 @@ glm::ivec2 min_size(glm::ivec2 size) {
   return scale.drawn_size(size.x, size.y);
 }
 
-JudgedMethod with_budget(house::Stage& stage, float budget_ms) {
+JudgedMethod with_budget(stage::Stage& stage, float budget_ms) {
   methods::Settings reflection = shipped_maps();
   reflection.budget_ms = budget_ms;
   return judged_methods(stage, {{"budget", reflection}}).front();
 }
 
 /// Times of whole frames with the fewest pixels and the cheapest reflections, and with all and the best.
-std::pair<double, double> range_of_frames(house::Stage& stage, glm::ivec2 size) {
+std::pair<double, double> range_of_frames(stage::Stage& stage, glm::ivec2 size) {
   const JudgedMethod cheapest = with_budget(stage, min_budget_ms), best = with_budget(stage, 0.0f);
   std::vector<double> cheap_ms, expensive_ms;
   for (int frame = 0; frame < tried_frames; ++frame)
@@ -59,7 +59,7 @@ std::pair<double, double> range_of_frames(house::Stage& stage, glm::ivec2 size) 
       for (int turn = 0; turn < 2; ++turn) {  // the first makes what is made once
         const FrameTime time = timed_frame(stage, *method, drawn);
         if (turn > 0) samples->push_back(time.whole_ms());
-        stage.play().advance(1.0 / frames_per_second);
+        stage.simulation().advance(1.0 / frames_per_second);
       }
     }
   return {median(cheap_ms).value, median(expensive_ms).value};
@@ -69,7 +69,7 @@ double off_percent(double ms, double expected_ms) { return 100.0 * std::abs(ms -
 
 }  // namespace
 
-void measure_budget(house::Stage& stage, const BenchSetup& setup, Report& report) {
+void measure_budget(stage::Stage& stage, const BenchSetup& setup, Report& report) {
   const glm::ivec2 size = setup.is_quick ? full_picture / 2 : full_picture;
   const auto [cheapest_ms, best_ms] = range_of_frames(stage, size);
   const double budget_ms = 0.5 * (cheapest_ms + best_ms);
@@ -83,7 +83,7 @@ void measure_budget(house::Stage& stage, const BenchSetup& setup, Report& report
     method.reflections->frame_took(time.update_ms, time.rest_ms);
     scale.frame_took(time.whole_ms(), budget_ms);
     if (frame >= settling_frames) errors_percent.push_back(off_percent(time.whole_ms(), budget_ms));
-    stage.play().advance(1.0 / frames_per_second);
+    stage.simulation().advance(1.0 / frames_per_second);
   }
   for (int frame = 0; frame < same_frames; ++frame)
     same_ms.push_back(timed_frame(stage, method, scale.drawn_size(size.x, size.y)).whole_ms());

@@ -18,7 +18,7 @@ bool is_at_crossing(const scene::Scene& scene, glm::vec3 at) {
   });
 }
 
-reference::TracedPicture traced_with_exact_shadows(house::Stage& stage, const NearView& view,
+reference::TracedPicture traced_with_exact_shadows(stage::Stage& stage, const NearView& view,
                                                    const Comparison& comparison) {
   render::Renderer& renderer = stage.renderer();
   renderer.begin_frame(stage.scene(), view.camera);
@@ -38,7 +38,7 @@ double mean(const std::vector<double>& values) {
 }
 
 /// Judges the pictures of all methods in one view.
-void judge(house::Stage& stage, const std::vector<JudgedMethod>& judged, const NearView& view,
+void judge(stage::Stage& stage, const std::vector<JudgedMethod>& judged, const NearView& view,
            const Comparison& comparison, Compared& compared) {
   const glm::ivec2 size = comparison.size;
   std::vector<Image8> pictures;
@@ -55,7 +55,7 @@ void judge(house::Stage& stage, const std::vector<JudgedMethod>& judged, const N
     add(traced_with_exact_shadows(stage, view, comparison), &Compared::Method::exact_flip);
 }
 
-void time(house::Stage& stage, const std::vector<JudgedMethod>& judged, const NearView& view,
+void time(stage::Stage& stage, const std::vector<JudgedMethod>& judged, const NearView& view,
           const Comparison& comparison, Compared& compared) {
   const auto costs = reflection_costs(stage, judged, view.camera, full_picture,
                                       {.repeats = comparison.repeats, .step_s = comparison.step_s});
@@ -113,7 +113,7 @@ void Compared::report(std::span<const MethodRow> rows, Report& report) const {
   }
 }
 
-Compared compared(house::Stage& stage, const Comparison& comparison) {
+Compared compared(stage::Stage& stage, const Comparison& comparison) {
   const std::vector<JudgedMethod> judged = judged_methods(stage, comparison.methods);
   const bool is_judged = comparison.size.x > 0;
   const glm::ivec2 size = is_judged ? comparison.size : full_picture;

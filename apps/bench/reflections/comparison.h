@@ -60,6 +60,6 @@ struct Compared {
 };
 
 /// Lets the stage's traffic drive from view to view.
-Compared compared(house::Stage& stage, const Comparison& comparison);
+Compared compared(stage::Stage& stage, const Comparison& comparison);
 
 }  // namespace parvis::bench

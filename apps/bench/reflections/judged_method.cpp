@@ -21,7 +21,7 @@ Image8 cut_out(const Image8& picture, const reference::PixelWindow& window) {
 
 /// Gives methods the surroundings that the frames timed last were found to lack; false: they lacked none. All
 /// are asked, since the frame of now is another one afterwards.
-bool supplied(house::Stage& stage, const std::vector<JudgedMethod>& methods) {
+bool supplied(stage::Stage& stage, const std::vector<JudgedMethod>& methods) {
   bool is_any = false;
   for (const JudgedMethod& method : methods)
     is_any |= method.reflections->supply(stage.renderer(), stage.scene());
@@ -50,8 +50,8 @@ void keep_maps(scene::Scene scene, const methods::Settings& reflection) {
   must(reference_maps::keep_maps(scene, heights, *renderer));
 }
 
-std::vector<JudgedMethod> judged_methods(house::Stage& stage, const WantedMethods& wanted) {
-  const auto& registry = stage.house().get<methods::Registry>();
+std::vector<JudgedMethod> judged_methods(stage::Stage& stage, const WantedMethods& wanted) {
+  const auto& registry = stage.registries().get<methods::Registry>();
   std::vector<JudgedMethod> made;
   made.reserve(wanted.size());
   for (const auto& [name, reflection] : wanted) {
@@ -63,7 +63,7 @@ std::vector<JudgedMethod> judged_methods(house::Stage& stage, const WantedMethod
   return made;
 }
 
-void pass_by(house::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size) {
+void pass_by(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size) {
   render::Renderer& renderer = stage.renderer();
   must(renderer.set_reflection(method.reflections.get()));
   renderer.begin_frame(stage.scene(), camera);
@@ -71,17 +71,17 @@ void pass_by(house::Stage& stage, const JudgedMethod& method, const Camera& came
   method.reflections->update(renderer, stage.scene(), camera);
 }
 
-void draw(house::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size) {
+void draw(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size) {
   must(stage.renderer().set_reflection(method.reflections.get()));
   draw_again(stage, method, camera, size);
 }
 
-void draw_again(house::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size) {
+void draw_again(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size) {
   must(methods::draw_frame(stage.renderer(), stage.scene(), method.reflections.get(),
                            {camera, size.x, size.y}));
 }
 
-Image8 picture_of(house::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size,
+Image8 picture_of(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size,
                   const reference::PixelWindow& window) {
   draw(stage, method, camera, size);
   return cut_out(stage.renderer().read_picture(stage.scene().exposure), window);
@@ -95,13 +95,13 @@ double finished_ms(const std::function<void()>& work) {
   });
 }
 
-std::vector<ReflectionCost> reflection_costs(house::Stage& stage, const std::vector<JudgedMethod>& methods,
+std::vector<ReflectionCost> reflection_costs(stage::Stage& stage, const std::vector<JudgedMethod>& methods,
                                              const Camera& camera, glm::ivec2 size, const Timing& timing) {
   std::vector<ReflectionCost> costs(methods.size());
   std::vector<double> passes_ms(methods.size()), cars_ms(methods.size()), pictures_ms(methods.size());
   render::Renderer& renderer = stage.renderer();
   for (int repeat = -1, lacking = 0; repeat < timing.repeats;) {  // the first turn makes what is made once
-    if (timing.step_s > 0.0) stage.play().advance(timing.step_s);
+    if (timing.step_s > 0.0) stage.simulation().advance(timing.step_s);
     renderer.begin_frame(stage.scene(), camera);
     for (std::size_t turn = 0; turn < methods.size(); ++turn) {
       const std::size_t m = repeat % 2 == 0 ? turn : methods.size() - 1 - turn;
@@ -127,7 +127,7 @@ std::vector<ReflectionCost> reflection_costs(house::Stage& stage, const std::vec
   return costs;
 }
 
-void report_shown(house::Stage& stage, const JudgedMethod& timed, const Camera& camera, glm::ivec2 size,
+void report_shown(stage::Stage& stage, const JudgedMethod& timed, const Camera& camera, glm::ivec2 size,
                   const std::string& key, Report& report) {
   const auto others = judged_methods(stage, {{"none", usual("none")}, {"traced", usual("traced")}});
   const Image8 expected = picture_of(stage, others[1], camera, size);

@@ -37,19 +37,19 @@ using WantedMethods = std::vector<std::pair<std::string, methods::Settings>>;
 void keep_maps(scene::Scene scene, const methods::Settings& reflection);
 
 /// Makes methods for a stage's scene, in their order; they live no longer than the stage.
-std::vector<JudgedMethod> judged_methods(house::Stage& stage, const WantedMethods& wanted);
+std::vector<JudgedMethod> judged_methods(stage::Stage& stage, const WantedMethods& wanted);
 
 /// Draws a frame of the stage by a method.
-void draw(house::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size);
+void draw(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size);
 
 /// A frame by the method that was drawn by last: what is timed.
-void draw_again(house::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size);
+void draw_again(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size);
 
 /// Lets a method make what it makes for a frame, of which no picture is wanted.
-void pass_by(house::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size);
+void pass_by(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size);
 
 /// A frame by a method, tone-mapped; a part of it, where a window is given.
-Image8 picture_of(house::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size,
+Image8 picture_of(stage::Stage& stage, const JudgedMethod& method, const Camera& camera, glm::ivec2 size,
                   const reference::PixelWindow& window = {});
 
 /// The wall clock over `work`, until OpenGL has done all of it, and none that came before it.
@@ -71,12 +71,12 @@ struct Timing {
 /// Times methods in alternating order, one sample of each per turn, after a turn that is not timed; the first
 /// must be the method without reflections, whose cost is nothing. A turn in which a method lacked
 /// surroundings (Reflections::supply) is not counted: it is supplied, and the turn is taken again.
-std::vector<ReflectionCost> reflection_costs(house::Stage& stage, const std::vector<JudgedMethod>& methods,
+std::vector<ReflectionCost> reflection_costs(stage::Stage& stage, const std::vector<JudgedMethod>& methods,
                                              const Camera& camera, glm::ivec2 size, const Timing& timing);
 
 /// FLIP of `timed` against the picture by mirror rays, over that of the picture without reflections: what a
 /// cost buys. Reported as `key`, with the picture without reflections, drawn once more, as its control.
-void report_shown(house::Stage& stage, const JudgedMethod& timed, const Camera& camera, glm::ivec2 size,
+void report_shown(stage::Stage& stage, const JudgedMethod& timed, const Camera& camera, glm::ivec2 size,
                   const std::string& key, Report& report);
 
 }  // namespace parvis::bench

@@ -56,14 +56,14 @@ struct Drive {
 };
 
 /// Nothing: the car waited, or something came between it and the eye.
-std::optional<Drive> drive_with(house::Stage& stage, const std::vector<JudgedMethod>& methods,
+std::optional<Drive> drive_with(stage::Stage& stage, const std::vector<JudgedMethod>& methods,
                                 const NearView& view, glm::ivec2 size) {
   const Companion companion(stage.scene(), view);
   const glm::vec3 start(companion.car()[3]);
   for (int frame = 0; frame < frames_before; ++frame) {
     for (const JudgedMethod& method : methods)
       if (method.shows_earlier_frames) pass_by(stage, method, companion.camera(), size);
-    stage.play().advance(frame_s);
+    stage.simulation().advance(frame_s);
   }
   if (glm::distance(start, glm::vec3(companion.car()[3])) < min_way_m) return {};
   stage.renderer().begin_frame(stage.scene(), companion.camera());
@@ -78,7 +78,7 @@ std::optional<Drive> drive_with(house::Stage& stage, const std::vector<JudgedMet
     drive.masks.push_back(truth.mirror_mask);
     for (std::size_t m = 0; m < methods.size(); ++m)
       drive.pictures[m].push_back(picture_of(stage, methods[m], camera, size, *window));
-    stage.play().advance(frame_s);
+    stage.simulation().advance(frame_s);
   }
   return drive;
 }
@@ -116,7 +116,7 @@ void judge(const Drive& drive, MotionErrors& sums) {
   ++sums.drives;
 }
 
-MotionErrors errors_in_motion(house::Stage& stage, const std::vector<JudgedMethod>& methods, int drives,
+MotionErrors errors_in_motion(stage::Stage& stage, const std::vector<JudgedMethod>& methods, int drives,
                               glm::ivec2 size) {
   MotionErrors errors;
   errors.flip.resize(methods.size());
@@ -134,7 +134,7 @@ MotionErrors errors_in_motion(house::Stage& stage, const std::vector<JudgedMetho
 
 /// Faces of cube maps that could be drawn in the time that the shipped method takes in near views; one at
 /// least.
-int faces_for_the_same_time(house::Stage& stage, int repeats, Report& report) {
+int faces_for_the_same_time(stage::Stage& stage, int repeats, Report& report) {
   const Compared near = compared(stage, {.methods = {{"none", usual("none")},
                                                      {"mem", shipped_maps()},
                                                      {"rerendered", usual("rerendered_cube_map")}},
@@ -154,7 +154,7 @@ int faces_for_the_same_time(house::Stage& stage, int repeats, Report& report) {
 
 }  // namespace
 
-void measure_motion(house::Stage& stage, const BenchSetup& setup, Report& report) {
+void measure_motion(stage::Stage& stage, const BenchSetup& setup, Report& report) {
   methods::Settings sliced = usual("time_sliced_cube_map");
   sliced.own.get<probes::TimeSlicing>().faces_per_frame =
       faces_for_the_same_time(stage, setup.is_quick ? 3 : 10, report);

@@ -52,7 +52,7 @@ void add_cars(scene::Scene& scene, const Camera& camera, int count) {
 
 /// A stage with the methods that a cost takes: without reflections, and with them.
 struct Timed {
-  std::unique_ptr<house::Stage> stage;
+  std::unique_ptr<stage::Stage> stage;
   std::vector<JudgedMethod> methods;
   std::vector<double> ms = {};
 
@@ -73,7 +73,7 @@ void time_in_turn(Timed& a, Timed& b, const Camera& camera, int repeats) {
       one->ms.push_back(one->sample(camera, full_picture));
 }
 
-double reflective_pixels(house::Stage& stage, const Camera& camera) {
+double reflective_pixels(stage::Stage& stage, const Camera& camera) {
   const reference::TracedPicture traced = stage.trace(camera, full_picture.x, full_picture.y, 1);
   return double(std::ranges::count_if(traced.mirror_mask.pixels, [](int weight) { return weight > 0; }));
 }
@@ -170,7 +170,8 @@ void measure_body_count(const scene::Scene& city, const BenchSetup& setup, Repor
 }
 
 void measure_city_size(const scene::Scene& city, const BenchSetup& setup, Report& report) {
-  scene::Scene small = without_traffic(house::make_play(house::all_rooms(), city).scene);  // cars stand
+  scene::Scene small =
+      without_traffic(stage::make_simulation(rooms::all_registries(), city).scene);  // cars stand
   methods::settings(small) = shipped_maps();
   const maps::MapCache kept(small);
   const std::optional<maps::MapFile> first = kept.read(0);

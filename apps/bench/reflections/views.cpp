@@ -84,12 +84,12 @@ std::vector<Camera> street_views(const scene::Scene& scene, std::size_t count, f
   return cameras;
 }
 
-std::unique_ptr<house::Stage> stage_with(scene::Scene scene, int vehicles) {
+std::unique_ptr<stage::Stage> stage_with(scene::Scene scene, int vehicles) {
   scene.data<traffic::TrafficDemand>().vehicles = vehicles;
   return stage_of(scene);
 }
 
-int reflectors_seen(house::Stage& stage, const Camera& camera, glm::ivec2 size) {
+int reflectors_seen(stage::Stage& stage, const Camera& camera, glm::ivec2 size) {
   stage.renderer().begin_frame(stage.scene(), camera);
   stage.renderer().prepare_main_view(camera, size.x, size.y);
   std::vector<methods::VisibleReflector> reflectors;
@@ -97,7 +97,7 @@ int reflectors_seen(house::Stage& stage, const Camera& camera, glm::ivec2 size) 
   return int(reflectors.size());
 }
 
-Camera view_of_cars(house::Stage& stage, int minimum, int maximum, glm::ivec2 size, Report& report) {
+Camera view_of_cars(stage::Stage& stage, int minimum, int maximum, glm::ivec2 size, Report& report) {
   const float aspect = aspect_of(size);
   constexpr int longest_search_s = 120;
   for (int second = 0; second < longest_search_s; ++second) {
@@ -106,17 +106,18 @@ Camera view_of_cars(house::Stage& stage, int minimum, int maximum, glm::ivec2 si
         if (vehicles_ahead(stage.scene(), camera, aspect) < minimum) continue;
         const int seen = reflectors_seen(stage, camera, size);
         if (seen < minimum || seen > maximum) continue;
-        report.note(fmt::format("{} cars, {} seen, from {} m above a street, after {} s",
-                                stage.play().clock.find<traffic::TrafficProcess>()->traffic().vehicle_count(),
-                                seen, height_m, second));
+        report.note(
+            fmt::format("{} cars, {} seen, from {} m above a street, after {} s",
+                        stage.simulation().clock.find<traffic::TrafficProcess>()->traffic().vehicle_count(),
+                        seen, height_m, second));
         return camera;
       }
-    stage.play().advance(1.0);
+    stage.simulation().advance(1.0);
   }
   fail("no view of {} to {} cars was found within {} s of traffic", minimum, maximum, longest_search_s);
 }
 
-std::optional<reference::PixelWindow> window_of_car(house::Stage& stage, const Camera& camera, int object,
+std::optional<reference::PixelWindow> window_of_car(stage::Stage& stage, const Camera& camera, int object,
                                                     glm::ivec2 size, float max_others_fraction) {
   const render::ObjectPicture sketch = stage.renderer().pick(camera, sketch_width, sketch_height, true);
   return window_of(sketch, stage.scene(), object, size, max_others_fraction);
@@ -126,7 +127,7 @@ NearView NearViews::next() {
   std::vector<int> cars;
   const scene::Scene& scene = stage_.scene();
   for (int second = 0; second < longest_search_s; second += seconds_apart) {
-    stage_.play().advance(seconds_apart);
+    stage_.simulation().advance(seconds_apart);
     stage_.renderer().begin_frame(scene, Camera{});
     cars.clear();
     for (std::size_t i = 0; i < scene.objects.size(); ++i)

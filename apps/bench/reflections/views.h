@@ -21,13 +21,13 @@ std::vector<Camera> street_views(const scene::Scene& scene, std::size_t count, f
                                  float pitch_rad, glm::ivec2 size);
 
 /// The scene with so many vehicles, running.
-std::unique_ptr<house::Stage> stage_with(scene::Scene scene, int vehicles);
+std::unique_ptr<stage::Stage> stage_with(scene::Scene scene, int vehicles);
 
 /// Number of reflecting objects that a frame of this camera draws.
-int reflectors_seen(house::Stage& stage, const Camera& camera, glm::ivec2 size);
+int reflectors_seen(stage::Stage& stage, const Camera& camera, glm::ivec2 size);
 
 /// Lets traffic drive until some view, from a balcony or a roof, sees between `minimum` and `maximum` cars.
-Camera view_of_cars(house::Stage& stage, int minimum, int maximum, glm::ivec2 size, Report& report);
+Camera view_of_cars(stage::Stage& stage, int minimum, int maximum, glm::ivec2 size, Report& report);
 
 /// Which near views are wanted.
 struct NearViewWish {
@@ -47,21 +47,21 @@ struct NearView {
 /// The pixels that show a car in the frame of now, and a margin; nothing: it is small, cut off, or others
 /// cover much of the picture.
 std::optional<reference::PixelWindow> window_of_car(
-    house::Stage& stage, const Camera& camera, int object, glm::ivec2 size,
+    stage::Stage& stage, const Camera& camera, int object, glm::ivec2 size,
     float max_others_fraction = NearViewWish{}.max_others_fraction);
 
 /// Views of cars that nothing hides, at different times and from all sides: the same for the same scene.
 class NearViews {
  public:
   /// Keeps the stage, which must outlive this, and the size of the pictures.
-  NearViews(house::Stage& stage, glm::ivec2 size, NearViewWish wish = {})
+  NearViews(stage::Stage& stage, glm::ivec2 size, NearViewWish wish = {})
       : stage_(stage), size_(size), wish_(std::move(wish)) {}
 
   /// Lets traffic drive on to the next one.
   NearView next();
 
  private:
-  house::Stage& stage_;
+  stage::Stage& stage_;
   glm::ivec2 size_;
   NearViewWish wish_;
   Random random_{23};

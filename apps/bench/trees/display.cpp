@@ -120,7 +120,7 @@ void measure_wood(const std::shared_ptr<const TreeLevels>& tree, Report& report)
   render::Drawables drawables;
   drawables.add(scene_trees_kind());
   scene::Scene wood;
-  drawables.furnish(wood);
+  drawables.attach(wood);
   plant(wood, tree);
   std::unique_ptr<render::Renderer> renderer =
       must(render::Renderer::create(wood, drawables, light::sun_and_sky));

@@ -77,11 +77,11 @@ struct ReconstructedTree {
 /// All steps from views to a tree that can be drawn, on two cores.
 ReconstructedTree reconstructed_tree(const SampleCapture& capture, const BenchCaptureSize& size);
 
-/// A tree of a volume as the house would read it from a file.
+/// A tree of a volume as Parvis would read it from a file.
 std::shared_ptr<const TreeLevels> levels_from(const TreeVolume& volume, std::span<const TreeView> views,
                                               TextureMethod method);
 
-/// Mean errors of what the house draws of a tree from the places of views, in the light of `light`; alpha's
+/// Mean errors of what Parvis draws of a tree from the places of views, in the light of `light`; alpha's
 /// root mean square over all of them. Needs a current OpenGL context. Errors: no views.
 ViewErrors errors_of(const std::shared_ptr<const TreeLevels>& tree, const scene::Scene& light,
                      std::span<const TreeView> views);

@@ -110,7 +110,7 @@ void measure_sizes(const TreeVolume& volume, const scene::Model& model, Means& m
   add("measure_crown_volume_error_percent", &TreeMeasures::crown_volume_m3);
 }
 
-/// The scene's sun moves by 60 degrees: FLIP of what the house draws against photographs under that sun, over
+/// The scene's sun moves by 60 degrees: FLIP of what Parvis draws against photographs under that sun, over
 /// that of the tree as it was photographed; the control is lit from the wrong side. Beside it what no
 /// separation of light from texture could undercut: the same volume with textures photographed under that
 /// sun.

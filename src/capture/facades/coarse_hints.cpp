@@ -158,7 +158,7 @@ Status apply_hints(CoarseModel& model, const std::string& text, const std::strin
   }
   if (!problems.empty()) return problems;
   model = std::move(changed);
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis::facades

@@ -1,4 +1,4 @@
-// The model of a place as glTF with named objects, which any modelling program opens and the house reads
+// The model of a place as glTF with named objects, which any modelling program opens and Parvis reads
 // back.
 #pragma once
 

@@ -246,7 +246,7 @@ class FacadeDrawable final : public render::Drawable {
     for (const auto& [facade, bytes] : max_bytes)
       if (!kept.contains(facade)) kept.insert(loaded_.extract(facade));
     loaded_ = std::move(kept);
-    return Done{};
+    return Ok{};
   }
 
   /// The photographs nearest to the viewer become resident. Other views (shadows, reflections) use what is

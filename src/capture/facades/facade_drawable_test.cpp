@@ -32,7 +32,7 @@ class FacadeDrawableTest : public gl::ContextTest {
     for (const photographs::Photograph& photo : input.photos) photos_.push_back(*read_image8(photo.file));
     scene_.sky.picture = ImageF(16, 8, 3, 0.1f);
     drawables_.add(facades_kind());
-    drawables_.furnish(scene_);
+    drawables_.attach(scene_);
     camera_.vertical_fov = 2.0f * std::atan(0.5f * float(drawn_height) / (0.5f * float(drawn_width)));
     look_from({0.4f, 0.5f, 0.2f});
   }

@@ -35,9 +35,9 @@ void append_runs(std::string& bytes, const std::vector<T>& values) {
 
 /// Writes all of `values`; false where the runs have another length.
 template <class T>
-bool take_runs(Taker& taker, std::vector<T>& values) {
-  const auto counts = taker.take_values<std::uint32_t>();
-  const auto of_runs = taker.take_values<T>();
+bool take_runs(ByteReader& reader, std::vector<T>& values) {
+  const auto counts = reader.take_values<std::uint32_t>();
+  const auto of_runs = reader.take_values<T>();
   if (counts.size() != of_runs.size()) return false;
   std::size_t at = 0;
   for (std::size_t r = 0; r < counts.size(); ++r) {
@@ -60,10 +60,10 @@ void append_model(std::string& bytes, const LayerModel& model) {
 }
 
 /// The triangles of `model` after its cuts; false where they do not fit its objects.
-bool take_triangles(Taker& taker, LayerModel& model) {
-  const auto faces = taker.take<std::uint32_t>();
-  const auto corners = taker.take_values<std::array<glm::dvec3, 3>>();
-  const auto numbers = taker.take_values<glm::uvec3>();
+bool take_triangles(ByteReader& reader, LayerModel& model) {
+  const auto faces = reader.take<std::uint32_t>();
+  const auto corners = reader.take_values<std::array<glm::dvec3, 3>>();
+  const auto numbers = reader.take_values<glm::uvec3>();
   if (corners.size() != numbers.size() || faces > model.face_count + max_new_faces * corners.size())
     return false;
   model.triangles.clear(), model.face_count = faces;
@@ -91,9 +91,9 @@ void append_visibility(std::string& bytes, const VisibilityLayers& visibility) {
 }
 
 /// False where items are not of the model, or not each in one layer.
-bool take_visibility(Taker& taker, const LayerModel& model, VisibilityLayers& visibility) {
-  const auto objects = taker.take_values<std::uint32_t>();
-  const auto faces = taker.take_values<std::int64_t>();
+bool take_visibility(ByteReader& reader, const LayerModel& model, VisibilityLayers& visibility) {
+  const auto objects = reader.take_values<std::uint32_t>();
+  const auto faces = reader.take_values<std::int64_t>();
   if (objects.size() != faces.size()) return false;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (objects[i] >= model.objects.size() || faces[i] < -1 || faces[i] >= std::int64_t(model.face_count))
@@ -101,14 +101,14 @@ bool take_visibility(Taker& taker, const LayerModel& model, VisibilityLayers& vi
     visibility.items.push_back({objects[i], faces[i]});
   }
   std::vector<char> is_in_layer(objects.size(), 0);
-  for (auto count = taker.take<std::uint32_t>(); count > 0 && !taker.has_ended_early(); --count) {
-    visibility.layers.push_back(taker.take_values<std::uint32_t>());
+  for (auto count = reader.take<std::uint32_t>(); count > 0 && !reader.has_ended_early(); --count) {
+    visibility.layers.push_back(reader.take_values<std::uint32_t>());
     for (const std::uint32_t item : visibility.layers.back())
       if (item >= is_in_layer.size() || std::exchange(is_in_layer[item], char(1))) return false;
   }
-  visibility.cuts = std::size_t(taker.take<std::uint64_t>());
-  for (auto count = taker.take<std::uint32_t>(); count > 0 && !taker.has_ended_early(); --count)
-    visibility.warnings.push_back({taker.take_text(), {}});
+  visibility.cuts = std::size_t(reader.take<std::uint64_t>());
+  for (auto count = reader.take<std::uint32_t>(); count > 0 && !reader.has_ended_early(); --count)
+    visibility.warnings.push_back({reader.take_text(), {}});
   return std::ranges::count(is_in_layer, char(0)) == 0;
 }
 
@@ -134,26 +134,26 @@ std::optional<std::vector<ImageF>> LayerKeeper::read_found(PlaceLayers& place) c
   if (!from) return std::nullopt;
   const std::optional<std::string> content = from->find("all", key_);
   if (!content) return std::nullopt;
-  Taker taker(*content);
-  if (taker.take<std::uint32_t>() != place.names.size()) return std::nullopt;
+  ByteReader reader(*content);
+  if (reader.take<std::uint32_t>() != place.names.size()) return std::nullopt;
   for (const std::string& name : place.names)
-    if (taker.take_text() != name) return std::nullopt;
+    if (reader.take_text() != name) return std::nullopt;
   LayerModel model = place.model;
-  if (!take_triangles(taker, model)) return std::nullopt;
+  if (!take_triangles(reader, model)) return std::nullopt;
   std::vector<VisibilityLayers> visibility(place.names.size());
   std::vector<Balance> balances(place.names.size());
   std::vector<ImageF> trusts(place.names.size());
   for (std::size_t i = 0; i < place.names.size(); ++i) {
-    if (!take_visibility(taker, model, visibility[i])) return std::nullopt;
-    balances[i] = taker.take<Balance>();
+    if (!take_visibility(reader, model, visibility[i])) return std::nullopt;
+    balances[i] = reader.take<Balance>();
     if (!is_finite(balances[i])) return std::nullopt;
-    if (taker.take<std::uint8_t>() == 0) continue;  // trusted everywhere
+    if (reader.take<std::uint8_t>() == 0) continue;  // trusted everywhere
     trusts[i] = ImageF(place.views[i].width, place.views[i].height, 1);
-    if (!take_runs(taker, trusts[i].pixels)) return std::nullopt;
+    if (!take_runs(reader, trusts[i].pixels)) return std::nullopt;
     if (!std::ranges::all_of(trusts[i].pixels, [](float trust) { return trust >= 0.0f && trust <= 1.0f; }))
       return std::nullopt;
   }
-  if (!taker.is_at_end()) return std::nullopt;
+  if (!reader.is_at_end()) return std::nullopt;
   place.model = std::move(model);
   place.visibility = std::move(visibility), place.balances = std::move(balances);
   return trusts;
@@ -181,14 +181,14 @@ std::optional<Filled> LayerKeeper::read_filled(const PlaceLayers& place, std::si
   if (!from) return std::nullopt;
   const std::optional<std::string> content = from->find(place.names[photo], key_);
   if (!content) return std::nullopt;
-  Taker taker(*content);
+  ByteReader reader(*content);
   const LayerPixels& originals = place.originals[photo];
-  if (taker.take<std::uint32_t>() != originals.size()) return std::nullopt;
+  if (reader.take<std::uint32_t>() != originals.size()) return std::nullopt;
   Filled filled{originals, {}, std::vector<Filling>(originals.size(), Filling::none)};
   for (std::size_t l = 0; l < originals.size(); ++l) {
     Image8& sources = filled.sources.emplace_back(originals[l].width, originals[l].height, 1);
-    if (!take_runs(taker, sources.pixels)) return std::nullopt;
-    const auto colours = taker.take_values<glm::u8vec3>();
+    if (!take_runs(reader, sources.pixels)) return std::nullopt;
+    const auto colours = reader.take_values<glm::u8vec3>();
     std::size_t next = 0;
     for (std::size_t p = 0; p < sources.pixels.size(); ++p) {
       if (sources.pixels[p] > std::uint8_t(FillSource::painted)) return std::nullopt;
@@ -200,7 +200,7 @@ std::optional<Filled> LayerKeeper::read_filled(const PlaceLayers& place, std::si
     if (next != colours.size()) return std::nullopt;
     if (next > 0) filled.states[l] = Filling::proposal;
   }
-  if (!taker.is_at_end()) return std::nullopt;
+  if (!reader.is_at_end()) return std::nullopt;
   return filled;
 }
 

@@ -161,14 +161,14 @@ Status write_edits(const std::filesystem::path& file, const LayerEdits& edits) {
 Result<LayerEdits> read_edits(const std::filesystem::path& file) {
   const Result<std::string> content = read_sealed(file, edits_kind);
   if (!content) return content.errors();
-  Taker taker(*content);
+  ByteReader reader(*content);
   LayerEdits edits;
-  for (std::uint32_t count = taker.take<std::uint32_t>(); count && !taker.has_ended_early(); --count) {
-    const std::vector<char> object = taker.take_values<char>(), layer = taker.take_values<char>();
+  for (std::uint32_t count = reader.take<std::uint32_t>(); count && !reader.has_ended_early(); --count) {
+    const std::vector<char> object = reader.take_values<char>(), layer = reader.take_values<char>();
     edits.push_back(
-        {{object.begin(), object.end()}, {layer.begin(), layer.end()}, taker.take_values<EditedPixel>()});
+        {{object.begin(), object.end()}, {layer.begin(), layer.end()}, reader.take_values<EditedPixel>()});
   }
-  if (!taker.is_at_end()) return cut_short(file);
+  if (!reader.is_at_end()) return cut_short(file);
   return edits;
 }
 

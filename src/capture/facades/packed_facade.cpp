@@ -103,31 +103,31 @@ Result<PackedFacade> read_facade(const std::filesystem::path& file) {
 }
 
 Result<PackedFacade> facade_of(std::string_view content, const std::filesystem::path& file) {
-  Taker taker(content);
+  ByteReader reader(content);
   PackedFacade facade;
-  const std::uint32_t surfaces = taker.take<std::uint32_t>();
-  for (std::uint32_t i = 0; i < surfaces && !taker.has_ended_early(); ++i)
-    facade.surfaces.push_back(taker.take_text());
-  facade.corners = taker.take_values<glm::vec3>();
-  facade.surface_of_triangle = taker.take_values<std::uint32_t>();
-  facade.fallback = taker.take_values<glm::u8vec3>();
-  facade.lists = taker.take_values<glm::uvec2>();
-  facade.candidates = taker.take_values<std::uint32_t>();
-  const std::uint32_t photos = taker.take<std::uint32_t>();
+  const std::uint32_t surfaces = reader.take<std::uint32_t>();
+  for (std::uint32_t i = 0; i < surfaces && !reader.has_ended_early(); ++i)
+    facade.surfaces.push_back(reader.take_text());
+  facade.corners = reader.take_values<glm::vec3>();
+  facade.surface_of_triangle = reader.take_values<std::uint32_t>();
+  facade.fallback = reader.take_values<glm::u8vec3>();
+  facade.lists = reader.take_values<glm::uvec2>();
+  facade.candidates = reader.take_values<std::uint32_t>();
+  const std::uint32_t photos = reader.take<std::uint32_t>();
   if (photos > max_facade_photos)
     return error("{}: it names {} photographs; at most {} are read", file.string(), photos,
                  max_facade_photos);
-  for (std::uint32_t i = 0; i < photos && !taker.has_ended_early(); ++i) {
+  for (std::uint32_t i = 0; i < photos && !reader.has_ended_early(); ++i) {
     PackedPhoto photo;
-    photo.name = taker.take_text();
-    photo.view = taker.take<View>(), photo.balance = taker.take<Balance>();
+    photo.name = reader.take_text();
+    photo.view = reader.take<View>(), photo.balance = reader.take<Balance>();
     facade.photos.push_back(std::move(photo));
   }
-  facade.layers = taker.take_values<PackedLayer>();
-  facade.tiles = taker.take_values<std::uint32_t>();
-  facade.blocks = taker.take_values<Bc7Block>();
-  facade.depths = taker.take_values<std::uint16_t>();
-  if (!taker.is_at_end()) return cut_short(file);
+  facade.layers = reader.take_values<PackedLayer>();
+  facade.tiles = reader.take_values<std::uint32_t>();
+  facade.blocks = reader.take_values<Bc7Block>();
+  facade.depths = reader.take_values<std::uint16_t>();
+  if (!reader.is_at_end()) return cut_short(file);
   if (Status status = check_facade(facade, file); !status) return status.errors();
   return facade;
 }
@@ -135,7 +135,7 @@ Result<PackedFacade> facade_of(std::string_view content, const std::filesystem::
 Status check_facade(const PackedFacade& facade, const std::filesystem::path& file) {
   if (const std::string problem = problem_of(facade); !problem.empty())
     return error("{}: {}; pack the facade again (parvis facade pack)", file.string(), problem);
-  return Done{};
+  return Ok{};
 }
 
 std::uint16_t encoded_depth(double depth) {

@@ -236,7 +236,7 @@ Status check_files(const PlaceSource& source) {
          {psd_file("layers", photo.name), psd_file(fs::path("layers") / "written", photo.name),
           next_file(fs::path("layers") / "written", photo.name), edits_file("", photo.name)})
       if (const Result<fs::path> inside = path_inside(source.folder, file); !inside) return inside.errors();
-  return Done{};
+  return Ok{};
 }
 
 /// Changes that were not collected, because they could not be read, are not written over.
@@ -248,7 +248,7 @@ Status check_collected(const PlaceSource& source, const PlaceLayers& place) {
           error("{}: somebody has changed it, and the changes could not be taken over; save it as a PSD of "
                 "8-bit RGB with its layers, or move it elsewhere to have it written again",
                 psd_file(source.folder / "layers", name).string()));
-  return errors.empty() ? Status(Done{}) : Status(errors);
+  return errors.empty() ? Status(Ok{}) : Status(errors);
 }
 
 }  // namespace

@@ -148,7 +148,7 @@ Status check_stems(const std::vector<Photograph>& photographs) {
       return error("{} and {} would have the same layered picture; rename one of them", known->second,
                    photograph.name);
   }
-  return Done{};
+  return Ok{};
 }
 
 std::vector<std::string> words(const std::string& line) {

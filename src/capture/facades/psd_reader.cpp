@@ -136,7 +136,7 @@ Status read_record(Reader& reader, LayerRecord& record, const std::string& name,
   reader.take(1);
   if (!read_extra(reader.section(reader.u32()), record))
     return error("{}: layer {} has a mask with an impossible rectangle; the file is damaged", name, number);
-  return Done{};
+  return Ok{};
 }
 
 /// `size` bytes of a PackBits row; false where it holds fewer or more.
@@ -253,7 +253,7 @@ Status read_pixels(Reader& reader, LayerRecord& record, int bits, std::size_t& b
     if (Status status = claim(layer.box, 1); !status) return status;
     layer.mask = Image8(layer.box.width, layer.box.height, 1, record.mask_outside);
   }
-  return Done{};
+  return Ok{};
 }
 
 /// Applies to each layer the groups around it. `records`: bottom first, a group's end below its layers.
@@ -290,7 +290,7 @@ Status read_layers(Reader reader, PsdPicture& picture, const std::string& name) 
     if (const Status read = read_pixels(reader, record, picture.file_bits, budget, name); !read) return read;
     if (record.section == 0) picture.layers.push_back(std::move(record.layer));
   }
-  return Done{};
+  return Ok{};
 }
 
 /// The layers of a 16-bit file lie in a block behind the empty ordinary section.

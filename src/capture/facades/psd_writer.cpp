@@ -155,7 +155,7 @@ Status check_sizes(const PsdPicture& picture, const std::string& name) {
     errors.push_back(error("{}: the layers have {} million bytes, a PSD holds 2000; use a smaller photograph",
                            name, bytes / 1'000'000));
   if (!errors.empty()) return errors;
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <memory>
 #include <mutex>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "capture/facades/facade_drawable.h"
 #include "capture/facades/facade_gltf.h"
 #include "capture/facades/placed_facade.h"
@@ -94,12 +94,12 @@ void build(const scene::Node& node, scene::SceneBuilder& builder, SharedFiles& f
 }  // namespace
 
 /// facade; its drawable.
-void furnish(House& house) {
+void register_room(Registries& registries) {
   const auto files = std::make_shared<SharedFiles>();
-  house.get<scene::NodeRegistry>().add(
+  registries.get<scene::NodeRegistry>().add(
       facade_schema(),
       [files](const scene::Node& node, scene::SceneBuilder& builder) { build(node, builder, *files); });
-  house.get<render::Drawables>().add(facades_kind());
+  registries.get<render::Drawables>().add(facades_kind());
 }
 
 }  // namespace parvis::facades

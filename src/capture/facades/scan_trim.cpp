@@ -74,9 +74,9 @@ std::vector<float> contradictions(const Mesh& mesh, const JoinedTriangles& joine
   return smoothed;
 }
 
-/// Visits `first` and all that `goes_on` lets it reach over edges. `is_done` remembers who was visited.
-template <class GoesOn, class Visit>
-void flood(const JoinedTriangles& joined, std::uint32_t first, std::vector<char>& is_done, GoesOn goes_on,
+/// Visits `first` and all that `is_open` lets it reach over edges. `is_done` remembers who was visited.
+template <class IsOpen, class Visit>
+void flood(const JoinedTriangles& joined, std::uint32_t first, std::vector<char>& is_done, IsOpen is_open,
            Visit visit) {
   std::vector<std::uint32_t> open{first};
   is_done[first] = 1;
@@ -85,7 +85,7 @@ void flood(const JoinedTriangles& joined, std::uint32_t first, std::vector<char>
     open.pop_back();
     visit(t);
     for (const std::uint32_t neighbour : joined.neighbours[t])
-      if (neighbour != no_triangle && !is_done[neighbour] && goes_on(neighbour))
+      if (neighbour != no_triangle && !is_done[neighbour] && is_open(neighbour))
         is_done[neighbour] = 1, open.push_back(neighbour);
   }
 }

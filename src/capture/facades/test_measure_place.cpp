@@ -63,7 +63,7 @@ Status judge_held_out(const std::vector<Photograph>& held_out, const LayerModel&
       add(figures.methods[m], rephotography(srgb8_from_linear(picture), truth, mask), share);
     }
   }
-  return Done{};
+  return Ok{};
 }
 
 Status judge_own_viewpoints(const std::vector<Photograph>& photos, const PlaceLayers& place,
@@ -82,7 +82,7 @@ Status judge_own_viewpoints(const std::vector<Photograph>& photos, const PlaceLa
     figures.aside_viewpoint_psnr_db +=
         share * rephotography(rgba8_of(facade.view(aside)), *truth, mask).psnr_db;
   }
-  return Done{};
+  return Ok{};
 }
 
 /// The place with all that was proposed refused, as a control: filling is switched off.
@@ -159,7 +159,7 @@ Status judge_roundtrips(const PlaceLayers& place, PlaceFigures& figures) {
   const Result<std::size_t> changed = roundtrip_differences(place, 0, true);
   if (!changed) return changed.errors();
   figures.psd_changed_px = *changed;
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ Status prepare(const CalibrationJob& job, const Pictures& pictures, const WorkFo
       fmt::format("{} {} {} {} {}\n{}\n{}", work_version, job.lens, job.one_lens_for_all, job.max_features,
                   max_feature_side_px, job.cameras.string(), pictures.hash);
   const Result<std::string> before = read_file(work.inputs());
-  if (before && *before == inputs) return Done{};
+  if (before && *before == inputs) return Ok{};
   for (const fs::path& old : {work.database(), work.sparse(), work.finished(), work.given()})
     fs::remove_all(old, code);
   return write_file(work.inputs(), inputs);
@@ -312,7 +312,7 @@ Status turn_and_scale(const CalibrationJob& job, PhotographSet& set) {
     scale = *found;
   }
   transform(set, glm::dmat3(1.0), scale, glm::dvec3(0.0));
-  return Done{};
+  return Ok{};
 }
 
 /// Masks and gains that somebody gave the photographs of an earlier run. Errors: they cannot be read; the

@@ -31,7 +31,7 @@ Result<LoadedSet> read_cameras(const std::filesystem::path& source,
 /// A place to look from without the size of a picture, as viewpoints have it.
 struct ViewOfPicture {
   std::string name;                   ///< of the picture, with or without folder and extension
-  glm::dmat4 world_from_camera{1.0};  ///< the house's
+  glm::dmat4 world_from_camera{1.0};  ///< Parvis's
   double fov = 0.0;                   ///< radians
   enum class Across { width, height, smaller_side } across = Across::height;
 };

@@ -222,7 +222,7 @@ Status expect_spread(const Problem& problem) {
   const Eigen::JacobiSVD<MatrixXd> svd(spread);
   if (svd.singularValues()[1] < 1e-3 * svd.singularValues()[0])
     return error("the points lie on one line; click corners that are spread over the picture");
-  return Done{};
+  return Ok{};
 }
 
 /// The best camera of the points; nothing where none has all of them before it.

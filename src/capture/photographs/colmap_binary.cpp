@@ -85,7 +85,7 @@ Status parse_cameras(Bytes in, ColmapModel& model) {
       return in.wrong(fmt::format("camera {} stands in the file twice", id));
   }
   if (in.failed() || !in.at_end()) return in.cut_short();
-  return Done{};
+  return Ok{};
 }
 
 Status parse_images(Bytes in, ColmapModel& model) {
@@ -107,7 +107,7 @@ Status parse_images(Bytes in, ColmapModel& model) {
     if (!in.failed()) model.images.push_back(std::move(image));
   }
   if (in.failed() || !in.at_end()) return in.cut_short();
-  return Done{};
+  return Ok{};
 }
 
 Status parse_points(Bytes in, ColmapModel& model) {
@@ -126,7 +126,7 @@ Status parse_points(Bytes in, ColmapModel& model) {
     if (!in.failed()) model.points.push_back(std::move(point));
   }
   if (in.failed() || !in.at_end()) return in.cut_short();
-  return Done{};
+  return Ok{};
 }
 
 template <class... T>

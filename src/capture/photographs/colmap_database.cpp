@@ -143,7 +143,7 @@ Status number_by_name(const std::filesystem::path& database) {
   text += "COMMIT;";
   if (sqlite3_exec(opened, text.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
     return error("{}: its pictures cannot be numbered ({})", database.string(), sqlite3_errmsg(opened));
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis::photographs

@@ -103,7 +103,7 @@ TEST(GltfCameras, StandWhereTheyStoodWithYUp) {
   const std::vector<TakenPicture> pictures = two_pictures();
   ASSERT_TRUE(write_gltf_cameras(folder.path() / "cameras.gltf", pictures));
   const auto json = nlohmann::json::parse(*read_file(folder.path() / "cameras.gltf"));
-  const auto& turn = json["nodes"][0]["matrix"];  // by columns: the house's z is up, exactly
+  const auto& turn = json["nodes"][0]["matrix"];  // by columns: Parvis's z is up, exactly
   for (int i = 0; i < 3; ++i) EXPECT_EQ(turn[std::size_t(8 + i)].get<double>(), i == 1 ? 1.0 : 0.0);
   ASSERT_EQ(json["cameras"].size(), 2u);
   const auto& matrix = json["nodes"][2]["matrix"];

@@ -1,7 +1,7 @@
 // How a camera's lens maps directions to pixels: the eleven camera models of COLMAP 3.8
 // (src/colmap/base/camera_models.h; https://colmap.github.io/cameras.html), forward and inverse.
 //
-// Frames: the camera's is the house's (x right, y up, it looks along -z; base/camera.h). Pixels count from
+// Frames: the camera's is Parvis's (x right, y up, it looks along -z; base/camera.h). Pixels count from
 // the top left corner of the picture, x to the right, y downward, pixel centres at +0.5, as COLMAP has them.
 #pragma once
 

@@ -1,6 +1,6 @@
 // Calibrated photographs as plain data: what the rooms of capture (facades, trees) and photomontage share.
 //
-// Poses are the house's: world_from_camera is rigid, right-handed, x east, y north, z up; the camera looks
+// Poses are Parvis's: world_from_camera is rigid, right-handed, x east, y north, z up; the camera looks
 // along -z, y up (base/camera.h). Readers turn other conventions on the way in, writers on the way out:
 // COLMAP and OpenCV cameras look along +z with y downward.
 #pragma once
@@ -70,7 +70,7 @@ std::optional<glm::dvec3> direction_in_world(const Photograph& photograph, glm::
 /// Distance along the camera's axis, metres; negative behind the camera.
 double distance_along_axis(const Photograph& photograph, glm::dvec3 position_in_world);
 
-/// The house camera at a photograph's place. Exact where the lens has no distortion, square pixels and a
+/// Parvis camera at a photograph's place. Exact where the lens has no distortion, square pixels and a
 /// centred principal point; else the nearest such camera, to look through. Draw with clip_from_camera
 /// (lens.h) where pixels have to agree.
 Camera camera_of(const Photograph& photograph);
@@ -79,7 +79,7 @@ Photograph photograph_of(const Camera& camera, std::string name, int width, int 
 
 /// The pose in the convention of OpenCV and COLMAP: world to a camera with x right, y downward, z forward.
 glm::dmat4 opencv_from_world(const Photograph& photograph);
-/// The house's pose of a camera from such a one.
+/// Parvis's pose of a camera from such a one.
 glm::dmat4 world_from_camera_of_opencv(const glm::dmat4& opencv_from_world);
 
 }  // namespace parvis::photographs

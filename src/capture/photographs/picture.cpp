@@ -57,7 +57,7 @@ std::optional<Lens> lens_for(const Lens& lens, int width, int height) {
 }
 
 Status apply_mask(const Photograph& photograph, Image8& image) {
-  if (photograph.mask.empty()) return Done{};
+  if (photograph.mask.empty()) return Ok{};
   const Result<Image8> mask = read_image8(photograph.mask);
   if (!mask) return mask.errors();
   if (mask->width != image.width || mask->height != image.height)
@@ -65,7 +65,7 @@ Status apply_mask(const Photograph& photograph, Image8& image) {
                  mask->width, mask->height, image.width, image.height);
   for (std::size_t i = 0; i < image.pixels.size(); i += 4)
     image.pixels[i + 3] = std::min(image.pixels[i + 3], mask->pixels[i]);
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

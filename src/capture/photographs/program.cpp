@@ -80,7 +80,7 @@ Status run_program(const std::vector<std::string>& arguments, const std::filesys
     usleep(200'000);
   }
   poll();
-  if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return Done{};
+  if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return Ok{};
   if (WIFEXITED(state) && WEXITSTATUS(state) == cannot_start)
     return error("{} cannot be started; install it (Debian: apt install {})", arguments[0], arguments[0]);
   return error("{} {} failed; the end of {} says: {}", arguments[0], arguments.size() > 1 ? arguments[1] : "",

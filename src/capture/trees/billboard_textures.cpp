@@ -276,7 +276,7 @@ Result<BillboardTree> textured(const TreeVolume& volume, std::span<const TreeVie
     else
       to_do.push_back(i);
   Progress progress("texturing", to_do.size());
-  std::vector<Status> statuses(to_do.size(), Done{});
+  std::vector<Status> statuses(to_do.size(), Ok{});
   parallel_for(to_do.size(), [&](std::size_t k) {
     const std::size_t i = to_do[k];
     tree.views[i] = textures_of(tree, volume, views[i], chosen);

@@ -68,7 +68,7 @@ class FigureWriter {
       if (Status status = (this->*step)(*box); !status) return status;
       progress.advance();
     }
-    return Done{};
+    return Ok{};
   }
   std::vector<std::string> lines() const { return lines_; }
 

@@ -20,7 +20,7 @@ struct ViewErrors {
 };
 
 /// A premultiplied picture of linear light over white, 8-bit sRGB. Light adds up before it is encoded, as in
-/// a camera and in the house.
+/// a camera and in Parvis.
 Image8 over_white(const ImageF& premultiplied);
 /// A view over white, 8-bit sRGB.
 Image8 over_white(const Image8& straight);

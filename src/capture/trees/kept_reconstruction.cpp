@@ -54,13 +54,13 @@ std::string bytes_of(const Opacities& opacities) {
 }
 
 std::optional<Opacities> opacities_of(std::string_view bytes) {
-  Taker taker(bytes);
+  ByteReader reader(bytes);
   Opacities opacities;
-  opacities.extinction_per_m = taker.take_values<float>();
-  opacities.mean_change = taker.take_values<double>();
-  opacities.picture_factor = taker.take<std::int32_t>();
+  opacities.extinction_per_m = reader.take_values<float>();
+  opacities.mean_change = reader.take_values<double>();
+  opacities.picture_factor = reader.take<std::int32_t>();
   const bool is_whole =
-      taker.is_at_end() && opacities.picture_factor > 0 &&
+      reader.is_at_end() && opacities.picture_factor > 0 &&
       std::ranges::all_of(opacities.extinction_per_m, [](float tau) { return std::isfinite(tau); }) &&
       are_finite(opacities.mean_change);
   if (!is_whole) return std::nullopt;
@@ -78,17 +78,17 @@ std::string bytes_of(const TreeVolume& volume, const FitState& state) {
 }
 
 std::optional<FittedVolume> fitted_volume_of(std::string_view bytes) {
-  Taker taker(bytes);
-  Result<TreeVolume> volume = take_volume(taker, "");
+  ByteReader reader(bytes);
+  Result<TreeVolume> volume = take_volume(reader, "");
   if (!volume) return std::nullopt;
   FittedVolume fitted{*std::move(volume), {}};
   FitState& state = fitted.state;
-  state.steps = std::size_t(taker.take<std::uint64_t>()), state.errors = taker.take_values<double>();
-  state.error_sum = taker.take<double>(), state.value_sum = taker.take<double>();
-  state.mean = taker.take_values<glm::vec4>(), state.mean_square = taker.take_values<glm::vec4>();
-  state.cell_steps = taker.take_values<std::uint16_t>();
+  state.steps = std::size_t(reader.take<std::uint64_t>()), state.errors = reader.take_values<double>();
+  state.error_sum = reader.take<double>(), state.value_sum = reader.take<double>();
+  state.mean = reader.take_values<glm::vec4>(), state.mean_square = reader.take_values<glm::vec4>();
+  state.cell_steps = reader.take_values<std::uint16_t>();
   const std::size_t cells = fitted.volume.grid.size();
-  const bool is_whole = taker.is_at_end() && state.mean.size() == cells &&
+  const bool is_whole = reader.is_at_end() && state.mean.size() == cells &&
                         state.mean_square.size() == cells && state.cell_steps.size() == cells &&
                         are_finite(state.errors);
   if (!is_whole) return std::nullopt;
@@ -108,10 +108,10 @@ std::string StepKeeper::find(const KeptStep& step) const {
 }
 
 Status StepKeeper::keep(const KeptStep& step, bool is_finished, const std::function<std::string()>& content) {
-  if (options_.checkpoint.empty() && !options_.is_interrupted) return Done{};
+  if (options_.checkpoint.empty() && !options_.is_interrupted) return Ok{};
   const bool is_interrupted = options_.processes.any_of(options_.is_interrupted && *options_.is_interrupted);
   const auto now = std::chrono::steady_clock::now();
-  Status kept = Done{};
+  Status kept = Ok{};
   if (checkpoint_.keeps_parts() &&
       (is_finished || is_interrupted || now - last_ >= options_.keeping_interval)) {
     kept = checkpoint_.keep(step.name, step.key, content());
@@ -121,7 +121,7 @@ Status StepKeeper::keep(const KeptStep& step, bool is_finished, const std::funct
     return error("{}; what was kept before is in {}, and the same command goes on from there",
                  kept ? "the first process cannot keep its work" : to_string(kept.errors().front()),
                  options_.checkpoint.string());
-  if (!is_interrupted) return Done{};
+  if (!is_interrupted) return Ok{};
   if (options_.checkpoint.empty()) return error("interrupted in the step {}", step.name);
   return error("interrupted in the step {}; what is done is kept in {}: the same command goes on from there",
                step.name, options_.checkpoint.string());

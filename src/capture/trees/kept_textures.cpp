@@ -57,9 +57,9 @@ KeptTextures::KeptTextures(const KeptParts& checkpoint, const TreeVolume& volume
 std::optional<int> KeptTextures::find_side(std::span<const TreeView> views) const {
   const std::optional<std::string> bytes = checkpoint_.find(side_part, side_key(key_, views));
   if (!bytes) return std::nullopt;
-  Taker taker(*bytes);
-  const auto side = taker.take<std::int32_t>();
-  if (!taker.is_at_end() || side < 1 || side > max_chosen_side) return std::nullopt;
+  ByteReader reader(*bytes);
+  const auto side = reader.take<std::int32_t>();
+  if (!reader.is_at_end() || side < 1 || side > max_chosen_side) return std::nullopt;
   return side;
 }
 
@@ -74,15 +74,15 @@ std::optional<BillboardTextures> KeptTextures::find(std::size_t index, const Tre
   const std::optional<std::string> bytes =
       checkpoint_.find(part_of(index), view_key(key_, view, tree.texels_per_side));
   if (!bytes) return std::nullopt;
-  Taker taker(*bytes);
-  BillboardTextures textures{view.camera, taker.take_values<std::int32_t>(), {}};
-  textures.texels = taker.take_values<std::uint8_t>();
-  if (!taker.is_at_end() || !fits(textures, tree)) return std::nullopt;
+  ByteReader reader(*bytes);
+  BillboardTextures textures{view.camera, reader.take_values<std::int32_t>(), {}};
+  textures.texels = reader.take_values<std::uint8_t>();
+  if (!reader.is_at_end() || !fits(textures, tree)) return std::nullopt;
   return textures;
 }
 
 Status KeptTextures::keep(std::size_t index, const TreeView& view, const BillboardTree& tree) const {
-  if (!checkpoint_.keeps_parts()) return Done{};  // the bytes would be for nothing
+  if (!checkpoint_.keeps_parts()) return Ok{};  // the bytes would be for nothing
   std::string bytes;
   append_values(bytes, tree.views[index].texture_of_cell), append_values(bytes, tree.views[index].texels);
   return checkpoint_.keep(part_of(index), view_key(key_, view, tree.texels_per_side), bytes);

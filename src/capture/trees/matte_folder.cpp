@@ -76,13 +76,13 @@ class MatteFile {
     if (!sources) return sources.errors();
     if (fs::exists(output_)) {
       const std::optional<Record> record = recorded();
-      if (record && record->sources == *sources) return ++counts.up_to_date, Done{};
+      if (record && record->sources == *sources) return ++counts.up_to_date, Ok{};
       if (!is_as_made(record)) {
         fmt::print(stderr,
                    "warning: {}: is not as parvis tree matte made it, and is kept; remove it to have "
                    "it made afresh\n",
                    output_.string());
-        return ++counts.foreign, Done{};
+        return ++counts.foreign, Ok{};
       }
     }
     const Result<Image8> rgba = matte_of_photograph();
@@ -102,7 +102,7 @@ class MatteFile {
     fs::remove(output_, code);
     if (Status status = keep({*sources, hash_of(*rgba)}); !status) return status;
     if (Status status = write_image(output_, *rgba); !status) return status;
-    return ++counts.made, Done{};
+    return ++counts.made, Ok{};
   }
 
  private:
@@ -122,9 +122,9 @@ class MatteFile {
   std::optional<Record> recorded() const {
     const std::optional<std::string> bytes = records_.find(output_.stem().string(), record_version);
     if (!bytes) return std::nullopt;
-    Taker taker(*bytes);
-    const auto record = taker.take<Record>();
-    return taker.is_at_end() ? std::optional(record) : std::nullopt;
+    ByteReader reader(*bytes);
+    const auto record = reader.take<Record>();
+    return reader.is_at_end() ? std::optional(record) : std::nullopt;
   }
 
   Status keep(const Record& record) const {

@@ -24,8 +24,8 @@ struct Found {
 
   Found(const StepKeeper& keeper, const KeptSteps& steps) {
     const std::string bytes = keeper.find(steps.cutoff);
-    Taker taker(bytes);
-    if (const auto value = taker.take<float>(); taker.is_at_end()) cutoff = value;
+    ByteReader reader(bytes);
+    if (const auto value = reader.take<float>(); reader.is_at_end()) cutoff = value;
     opacities = opacities_of(keeper.find(steps.opacity));
     colours = fitted_volume_of(keeper.find(steps.colours));
     finer = fitted_volume_of(keeper.find(steps.finer));
@@ -121,7 +121,7 @@ class Work {
   }
 
   Status choose_cutoff(const CellGrid& grid, std::span<const TreeView> views) {
-    Status status = Done{};
+    Status status = Ok{};
     if (options_.cutoff || found_.cutoff) {
       result_.cutoff = options_.cutoff ? *options_.cutoff : *found_.cutoff;
     } else {
@@ -146,7 +146,7 @@ class Work {
     if (found_.opacities && found_.opacities->extinction_per_m.size() == grid.size())
       start = *std::move(found_.opacities);
     const std::size_t done = start.mean_change.size();
-    Status status = Done{};
+    Status status = Ok{};
     OpacityOptions opacity = options_.opacity;
     opacity.processes = options_.processes;
     opacity.after_iteration = [&](const Opacities& now) {
@@ -180,7 +180,7 @@ class Work {
          fmt::format("colours, {} cells, RMS error {:.4f}", result_.volume.grid.size(),
                      state.errors.empty() ? 0.0 : state.errors.back()),
          done);
-    return Done{};
+    return Ok{};
   }
 
   Status fit_finer(std::span<const TreeView> views) {
@@ -201,7 +201,7 @@ class Work {
          fmt::format("one level finer, {} cells, RMS error {:.4f}", result_.volume.grid.size(),
                      state.errors.back()),
          done);
-    return Done{};
+    return Ok{};
   }
 
   /// How a fit is reported and kept.
@@ -214,7 +214,7 @@ class Work {
   /// Fits the volume of the result from `state` on.
   Status fit(FitOptions options, const FitKeeping& keeping, std::span<const TreeView> views,
              FitState& state) {
-    Status status = Done{};
+    Status status = Ok{};
     const std::size_t total = options.steps(views.size());
     options.after_step = [&](const FitState& now) {
       progress_.advance(keeping.passes);

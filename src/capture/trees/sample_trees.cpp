@@ -11,7 +11,7 @@
 namespace parvis::trees {
 namespace {
 
-constexpr int bark_material = 0, leaf_material = 1;  // materials of the house's trees
+constexpr int bark_material = 0, leaf_material = 1;  // materials of Parvis's trees
 
 struct Kind {
   synthesis::Species species;

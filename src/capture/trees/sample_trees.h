@@ -1,5 +1,5 @@
 // Trees of known shape to photograph: an orange tree, an oak, a pine and a sparse winter tree, grown by the
-// rules of the house's procedural trees (city/tree_skeleton.h).
+// rules of Parvis's procedural trees (city/tree_skeleton.h).
 #pragma once
 
 #include <array>

@@ -88,8 +88,8 @@ struct TreeDetail {
 };
 
 /// Trees that have been read, by file: a node that changes does not read them again.
-struct TreeShelf {
-  static constexpr std::string_view name = "trees.shelf";
+struct TreeCache {
+  static constexpr std::string_view name = "trees.cache";
   static constexpr scene::DataRole role = scene::DataRole::settings;
 
   /// A tree that has been read, and the hash of its file.

@@ -14,7 +14,7 @@ namespace {
 constexpr float backdrop_depth = 1e-6f;  // reversed: just before the sky
 constexpr int sky_width = 128;           // pixels round the horizon; the sums over a coarser sky are inexact
 
-/// The house's camera of a pinhole, whose principal point may lie anywhere.
+/// Parvis's camera of a pinhole, whose principal point may lie anywhere.
 Camera camera_of(const Pinhole& pinhole) {
   Camera camera;
   camera.world_from_camera = glm::mat4(pinhole.world_from_camera);
@@ -76,7 +76,7 @@ Result<ShownTree> ShownTree::create(std::shared_ptr<const TreeLevels> tree, cons
   scene->sun = light.sun, scene->sky = light.sky, scene->haze_per_m = light.haze_per_m;
   render::Drawables drawables;
   drawables.add(scene_trees_kind());
-  drawables.furnish(*scene);
+  drawables.attach(*scene);
   SceneTree placed;
   placed.tree = std::move(tree);
   if (std::optional<scene::Object> trunk = placed.trunk_object()) scene->objects.push_back(*std::move(trunk));
@@ -86,7 +86,7 @@ Result<ShownTree> ShownTree::create(std::shared_ptr<const TreeLevels> tree, cons
 
 Result<ShownTree> ShownTree::of_scene(scene::Scene scene) {
   render::Drawables drawables;
-  drawables.furnish(scene);
+  drawables.attach(scene);
   return shown(std::make_unique<scene::Scene>(std::move(scene)), drawables);
 }
 

@@ -1,4 +1,4 @@
-// A captured tree as the house draws it, for figures and comparisons: the node's drawable, its light and its
+// A captured tree as Parvis draws it, for figures and comparisons: the node's drawable, its light and its
 // levels of detail, with what the tree lets through told apart from what it shows.
 #pragma once
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <limits>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "capture/trees/billboard_textures.h"
 #include "capture/trees/cell_order.h"
 #include "capture/trees/judge.h"
@@ -69,7 +69,7 @@ class TreeDisplayTest : public gl::ContextTest {
     scene_.sun.direction_to_sun = glm::normalize(glm::vec3(0.6f, -0.5f, 0.7f));
     add(scene_, model_of(ground(40), matt(glm::vec3(0.5f))));
     drawables_.add(scene_trees_kind());
-    drawables_.furnish(scene_);
+    drawables_.attach(scene_);
   }
   void plant(glm::vec3 foot, float scale = 4.0f) {
     SceneTree tree;
@@ -484,15 +484,15 @@ class TreeNodeTest : public testing::Test {
  protected:
   TreeNodeTest() {
     std::filesystem::create_directories(folder_);
-    script::furnish(house_), furnish(house_);
+    script::register_room(registries_), register_room(registries_);
   }
   Result<scene::LoadedScene> load(const std::string& script) const {
     std::ofstream(folder_ / "scene.xp") << script;
-    return scene::load_scene(folder_ / "scene.xp", house_.get<scene::NodeRegistry>(), {});
+    return scene::load_scene(folder_ / "scene.xp", registries_.get<scene::NodeRegistry>(), {});
   }
 
   std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "parvis_tree_node";
-  House house_;
+  Registries registries_;
 };
 
 TEST_F(TreeNodeTest, ItsFootStandsWhereTheNodeSays) {

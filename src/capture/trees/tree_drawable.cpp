@@ -258,13 +258,13 @@ class TreeDrawable final : public render::Drawable {
     for (const SceneTree& tree : scene_trees(scene)) distinct.push_back(tree.tree.get());
     std::ranges::sort(distinct);
     distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-    if (distinct == uploaded_) return Done{};
+    if (distinct == uploaded_) return Ok{};
     uploaded_ = distinct;
     crowns_ = {};
     Result<TreeAtlas> atlas = TreeAtlas::create(distinct);
     if (!atlas) return atlas.errors();
     atlas_ = *std::move(atlas), detail_tiles_ = DetailTiles::of(distinct);
-    return Done{};
+    return Ok{};
   }
 
   /// Adds the visible billboards of a tree from front to back.

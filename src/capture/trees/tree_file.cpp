@@ -141,10 +141,10 @@ Result<Content> content_of(const std::filesystem::path& file, const BillboardTre
 
 /// Takes a view's blocks: numbers into the table, where there is one. Error: a number beyond it; memory, of
 /// which the blocks of a few bytes take much.
-Result<std::vector<TextureBlock>> take_blocks(Taker& taker, const std::optional<BlockTable>& table,
+Result<std::vector<TextureBlock>> take_blocks(ByteReader& reader, const std::optional<BlockTable>& table,
                                               const std::filesystem::path& file) {
-  if (!table) return taker.take_values<TextureBlock>();
-  const auto numbers = taker.take_values<std::uint16_t>();
+  if (!table) return reader.take_values<TextureBlock>();
+  const auto numbers = reader.take_values<std::uint16_t>();
   if (Status enough = check_memory(checked_product({numbers.size(), block_bytes}),
                                    file.string() + ": the blocks of a view");
       !enough)
@@ -161,16 +161,16 @@ Result<BillboardTree> tree_of(const std::filesystem::path& file, const SealedKin
   const auto wrong = [&](const std::string& what) {
     return error("{}: the captured tree is damaged: {}", file.string(), what);
   };
-  Taker taker(content);
-  const auto box = taker.take<Bounds>();
-  const auto branching = taker.take<std::int32_t>(), side = taker.take<std::int32_t>(),
-             texels = taker.take<std::int32_t>();
-  std::vector<glm::u16vec3> cells = taker.take_values<glm::u16vec3>();
+  ByteReader reader(content);
+  const auto box = reader.take<Bounds>();
+  const auto branching = reader.take<std::int32_t>(), side = reader.take<std::int32_t>(),
+             texels = reader.take<std::int32_t>();
+  std::vector<glm::u16vec3> cells = reader.take_values<glm::u16vec3>();
   BillboardTree tree;
-  tree.base = taker.take_values<glm::u8vec4>();
-  tree.light = taker.take<CapturedLight>();
-  const auto view_count = taker.take<std::uint32_t>();
-  if (taker.has_ended_early()) return cut_short(file);
+  tree.base = reader.take_values<glm::u8vec4>();
+  tree.light = reader.take<CapturedLight>();
+  const auto view_count = reader.take<std::uint32_t>();
+  if (reader.has_ended_early()) return cut_short(file);
   if (const std::string problem = grid_problem(box, branching, side, max_billboard_side, cells);
       !problem.empty())
     return wrong(problem);
@@ -191,7 +191,7 @@ Result<BillboardTree> tree_of(const std::filesystem::path& file, const SealedKin
   tree.grid = CellGrid(box, branching, side, std::move(cells)), tree.texels_per_side = texels;
   std::optional<BlockTable> table;
   if (kind.magic == coded_kind.magic) {
-    std::vector<TextureBlock> blocks = taker.take_values<TextureBlock>();
+    std::vector<TextureBlock> blocks = reader.take_values<TextureBlock>();
     if (blocks.size() > BlockTable::max_blocks)
       return wrong(fmt::format("a table of {} blocks, at most {} are possible", blocks.size(),
                                BlockTable::max_blocks));
@@ -199,11 +199,11 @@ Result<BillboardTree> tree_of(const std::filesystem::path& file, const SealedKin
   }
   for (std::uint32_t v = 0; v < view_count; ++v) {
     BillboardTextures view;
-    view.camera = taker.take<Pinhole>();
-    const auto bits = taker.take_values<std::uint8_t>();
-    const Result<std::vector<TextureBlock>> blocks = take_blocks(taker, table, file);
+    view.camera = reader.take<Pinhole>();
+    const auto bits = reader.take_values<std::uint8_t>();
+    const Result<std::vector<TextureBlock>> blocks = take_blocks(reader, table, file);
     if (!blocks) return blocks.errors();
-    if (taker.has_ended_early()) return cut_short(file);
+    if (reader.has_ended_early()) return cut_short(file);
     if (!is_finite(view.camera) || view.camera.width < 1 || view.camera.height < 1)
       return wrong("a camera is no camera");
     if (bits.size() != (cell_count + 7) / 8) return wrong("a view's cells do not match the grid's");
@@ -219,12 +219,12 @@ Result<BillboardTree> tree_of(const std::filesystem::path& file, const SealedKin
     put_blocks(view, *blocks, texels);
     tree.views.push_back(std::move(view));
   }
-  if (!taker.is_at_end()) {  // trees of one kind end here, those with a trunk as geometry go on
-    Result<TrunkShape> trunk = take_trunk(taker);
+  if (!reader.is_at_end()) {  // trees of one kind end here, those with a trunk as geometry go on
+    Result<TrunkShape> trunk = take_trunk(reader);
     if (!trunk) return wrong(trunk.errors().front().message);
     tree.trunk = *std::move(trunk);
   }
-  if (!taker.is_at_end()) return wrong("bytes follow its end");
+  if (!reader.is_at_end()) return wrong("bytes follow its end");
   return tree;
 }
 
@@ -278,23 +278,23 @@ Result<std::size_t> write_volume(const std::filesystem::path& file, const TreeVo
 Result<TreeVolume> read_volume(const std::filesystem::path& file) {
   const Result<std::string> content = read_sealed(file, volume_kind);
   if (!content) return content.errors();
-  Taker taker(*content);
-  Result<TreeVolume> volume = take_volume(taker, file);
-  if (volume && !taker.is_at_end())
+  ByteReader reader(*content);
+  Result<TreeVolume> volume = take_volume(reader, file);
+  if (volume && !reader.is_at_end())
     return error("{}: the tree volume is damaged: bytes follow its end", file.string());
   return volume;
 }
 
-Result<TreeVolume> take_volume(Taker& taker, const std::filesystem::path& file) {
+Result<TreeVolume> take_volume(ByteReader& reader, const std::filesystem::path& file) {
   const auto wrong = [&](const std::string& what) {
     return error("{}: the tree volume is damaged: {}", file.string(), what);
   };
-  const auto box = taker.take<Bounds>();
-  const auto branching = taker.take<std::int32_t>(), side = taker.take<std::int32_t>();
-  std::vector<glm::u16vec3> cells = taker.take_values<glm::u16vec3>();
+  const auto box = reader.take<Bounds>();
+  const auto branching = reader.take<std::int32_t>(), side = reader.take<std::int32_t>();
+  std::vector<glm::u16vec3> cells = reader.take_values<glm::u16vec3>();
   TreeVolume volume;
-  volume.extinction_per_m = taker.take_values<float>(), volume.colour = taker.take_values<glm::vec3>();
-  if (taker.has_ended_early()) return cut_short(file);
+  volume.extinction_per_m = reader.take_values<float>(), volume.colour = reader.take_values<glm::vec3>();
+  if (reader.has_ended_early()) return cut_short(file);
   if (const std::string problem = grid_problem(box, branching, side, max_grid_side, cells); !problem.empty())
     return wrong(problem);
   if (volume.extinction_per_m.size() != cells.size() || volume.colour.size() != cells.size())

@@ -25,7 +25,7 @@ Result<BillboardTree> read_tree(const std::filesystem::path& file);
 /// Appends a volume to the content of a file.
 void append_volume(std::string& content, const TreeVolume& volume);
 /// Takes it out of the content of `file`, checked. Errors name the file and what is wrong.
-Result<TreeVolume> take_volume(Taker& taker, const std::filesystem::path& file);
+Result<TreeVolume> take_volume(ByteReader& reader, const std::filesystem::path& file);
 
 /// The volume that textures are made from, between two commands. Returns the file's size in bytes.
 Result<std::size_t> write_volume(const std::filesystem::path& file, const TreeVolume& volume);

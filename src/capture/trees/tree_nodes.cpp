@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "capture/trees/scene_tree.h"
 #include "capture/trees/tree_drawable.h"
 #include "capture/trees/tree_file.h"
@@ -57,10 +57,10 @@ float height_m(const TreeLevels& tree) {
 }
 
 /// The tree, read once for all nodes. Null, with the errors in `builder`, where the file cannot be used.
-const TreeShelf::Read* tree_of(const Node& node, SceneBuilder& builder) {
-  auto& shelf = builder.scene.data<TreeShelf>().trees;
+const TreeCache::Read* tree_of(const Node& node, SceneBuilder& builder) {
+  auto& cache = builder.scene.data<TreeCache>().trees;
   const std::filesystem::path file = node.file("file");
-  if (const auto found = shelf.find(file); found != shelf.end()) return &found->second;
+  if (const auto found = cache.find(file); found != cache.end()) return &found->second;
   Result<BillboardTree> tree = read_tree(file);
   if (!tree) {
     builder.fail(tree.errors(), node.where_of("file"));
@@ -77,14 +77,14 @@ const TreeShelf::Read* tree_of(const Node& node, SceneBuilder& builder) {
   for (const BillboardTextures& view : tree->views) hash.add(view.texels);
   hash.add(tree->grid.cells()), hash.add(tree->base), hash.add(tree->light);
   if (tree->trunk) hash.add(tree->trunk->trunk.rings), hash.add(tree->trunk->bark.pixels);
-  return &shelf
-              .emplace(file, TreeShelf::Read{std::make_shared<const TreeLevels>(levels_of(*std::move(tree))),
+  return &cache
+              .emplace(file, TreeCache::Read{std::make_shared<const TreeLevels>(levels_of(*std::move(tree))),
                                              hash.value()})
               .first->second;
 }
 
 void build_tree(const Node& node, SceneBuilder& builder) {
-  const TreeShelf::Read* read = tree_of(node, builder);
+  const TreeCache::Read* read = tree_of(node, builder);
   if (!read) return;
   const float height = float(node.number("height"));
   const float scale = height > 0.0f ? height / height_m(*read->tree) : 1.0f;
@@ -103,11 +103,11 @@ void build_tree(const Node& node, SceneBuilder& builder) {
 
 }  // namespace
 
-/// How captured trees join the house: the node `tree`, and what draws and traces it.
-void furnish(House& house) {
-  house.get<scene::NodeRegistry>().add(tree_schema(), build_tree);
-  house.get<render::Drawables>().add(scene_trees_kind());
-  house.get<action::Processes>().add([] { return std::make_unique<WindProcess>(); });
+/// How captured trees join Parvis: the node `tree`, and what draws and traces it.
+void register_room(Registries& registries) {
+  registries.get<scene::NodeRegistry>().add(tree_schema(), build_tree);
+  registries.get<render::Drawables>().add(scene_trees_kind());
+  registries.get<action::Processes>().add([] { return std::make_unique<WindProcess>(); });
 }
 
 }  // namespace parvis::trees

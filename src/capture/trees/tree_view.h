@@ -1,6 +1,6 @@
 // A calibrated view of a tree: a pinhole camera and an RGBA picture whose alpha is the tree's matte.
 //
-// Frames: the camera's is the house's (x right, y up, it looks along -z; base/camera.h). Pixels count from
+// Frames: the camera's is Parvis's (x right, y up, it looks along -z; base/camera.h). Pixels count from
 // the top left corner, pixel centres at +0.5.
 #pragma once
 

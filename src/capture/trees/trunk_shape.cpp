@@ -97,12 +97,12 @@ void append_trunk(std::string& content, const TrunkShape& shape) {
   append_values(content, blocks);
 }
 
-Result<TrunkShape> take_trunk(Taker& taker) {
+Result<TrunkShape> take_trunk(ByteReader& reader) {
   TrunkShape shape;
-  shape.trunk.rings = taker.take_values<Trunk::Ring>();
-  const auto width = taker.take<std::int32_t>(), height = taker.take<std::int32_t>();
-  const auto blocks = taker.take_values<TextureBlock>();
-  if (taker.has_ended_early() || !is_trunk(shape.trunk)) return error("its trunk is no stack of discs");
+  shape.trunk.rings = reader.take_values<Trunk::Ring>();
+  const auto width = reader.take<std::int32_t>(), height = reader.take<std::int32_t>();
+  const auto blocks = reader.take_values<TextureBlock>();
+  if (reader.has_ended_early() || !is_trunk(shape.trunk)) return error("its trunk is no stack of discs");
   const auto is_side = [](int side) { return side >= 4 && side <= max_bark_side && side % 4 == 0; };
   if (!is_side(width) || !is_side(height) ||
       blocks.size() != std::size_t(width / 4) * std::size_t(height / 4))

@@ -39,6 +39,6 @@ scene::Model model_of(const TrunkShape& shape);
 /// Appends a trunk to the content of a file: its rings, and its bark in blocks (texture_blocks.h).
 void append_trunk(std::string& content, const TrunkShape& shape);
 /// Takes it out of the content of a file, checked; the error says what is wrong with it.
-Result<TrunkShape> take_trunk(Taker& taker);
+Result<TrunkShape> take_trunk(ByteReader& reader);
 
 }  // namespace parvis::trees

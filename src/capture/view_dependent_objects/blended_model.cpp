@@ -115,7 +115,7 @@ class Assembly {
             name, triangles.size(), parts.size(), max_entries);
     }
     write_piece(name, parts, triangles);
-    return Done{};
+    return Ok{};
   }
 
   void add_part(std::size_t m, std::size_t p, std::size_t view, std::size_t views, Corners& corners,
@@ -220,7 +220,7 @@ class Assembly {
       made_.pictures[i].set_repeats(repeats), made_.pictures[i].is_srgb = true;
     });
     if (made_.pictures.empty()) made_.pictures.push_back({"none", Image8(1, 1, 4, 255)});
-    return Done{};
+    return Ok{};
   }
 
   /// Bilinear. Pictures are enlarged to the largest; those beyond the limit lose what a mipmap would.

@@ -108,7 +108,7 @@ class ObjectDrawable final : public render::Drawable {
     for (const PlacedObject& placed : scene.items<PlacedObject>())
       if (auto known = loaded_.extract(placed.model)) kept.insert(std::move(known));
     loaded_ = std::move(kept);
-    return Done{};
+    return Ok{};
   }
 
   void bind(const gl::Program& program, const PlacedObject& object, int thing) const {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <mutex>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "capture/view_dependent_objects/model_pairs.h"
 #include "capture/view_dependent_objects/object_drawable.h"
 #include "capture/view_dependent_objects/placed_object.h"
@@ -137,14 +137,14 @@ void build(const scene::Node& node, scene::SceneBuilder& builder, const formats:
 }  // namespace
 
 /// Adds the node vdobject, and what draws and traces it.
-void furnish(House& house) {
-  const formats::Readers& readers = house.get<formats::Readers>();
+void register_room(Registries& registries) {
+  const formats::Readers& readers = registries.get<formats::Readers>();
   const auto known = std::make_shared<KnownModels>();
-  house.get<scene::NodeRegistry>().add(
+  registries.get<scene::NodeRegistry>().add(
       vdobject_schema(), [&readers, known](const scene::Node& node, scene::SceneBuilder& builder) {
         build(node, builder, readers, *known);
       });
-  house.get<render::Drawables>().add(objects_kind());
+  registries.get<render::Drawables>().add(objects_kind());
 }
 
 }  // namespace parvis::view_dependent_objects

@@ -177,8 +177,9 @@ DEF body Separator {
 class VdObject : public scene::ScriptTest<gl::ContextTest> {
  protected:
   VdObject() {
-    script::furnish(house_), gltf::furnish(house_), inventor::furnish(house_);
-    view_dependent_objects::furnish(house_);
+    script::register_room(registries_), gltf::register_room(registries_),
+        inventor::register_room(registries_);
+    view_dependent_objects::register_room(registries_);
     EXPECT_TRUE(scene::write_gltf(folder_.path() / "car.glb", *painted(wall(), red, "body")));
     folder_.write("car2.iv", thesis_inventor);
     folder_.write("car3.wrl", thesis_vrml);
@@ -263,8 +264,8 @@ TEST_F(VdObject, ReceivesShadowsAsDarkAsThoseOfItsTexturesAndNoneTwice) {
     scene.sun.irradiance = vec3(1.0f);
     if (has_board)
       scene::add(scene, scene::model_of(scene::box({-2, -2.1f, 2}, {2, -2, 4}), scene::matt(vec3(0.5f))));
-    const auto& drawables = house_.get<render::Drawables>();
-    drawables.furnish(scene);
+    const auto& drawables = registries_.get<render::Drawables>();
+    drawables.attach(scene);
     Camera camera;
     camera.world_from_camera = look_at({0, -5, 1}, {0, 0, 1});
     camera.vertical_fov = 0.35f;
@@ -295,7 +296,7 @@ TEST_F(VdObject, ReceivesShadowsAsDarkAsThoseOfItsTexturesAndNoneTwice) {
 }
 
 TEST_F(VdObject, CastsAShadowWhereItIsAmongTheCasters) {
-  light::furnish(house_);
+  light::register_room(registries_);
   constexpr int size = 64;
   Camera camera;  // the ground before the wall, which stands between it and the sun
   camera.world_from_camera = look_at({0, -1.2f, 6}, {0, -1.2f, 0}, {0, 1, 0});
@@ -319,8 +320,8 @@ TEST_F(VdObject, CastsAShadowWhereItIsAmongTheCasters) {
     scene.sun.direction_to_sun = glm::normalize(vec3(0, 1, 1));
     scene.sun.irradiance = vec3(3.0f);
     scene::add(scene, scene::model_of(scene::ground(60), scene::matt(vec3(0.5f))));
-    const auto& drawables = house_.get<render::Drawables>();
-    drawables.furnish(scene);
+    const auto& drawables = registries_.get<render::Drawables>();
+    drawables.attach(scene);
     if (traces) {
       const reference::RayScene rays(scene);
       const shading::SkyLight sky = shading::make_sky_light(scene.sky.picture, 1.0f, 0.0f);
@@ -347,8 +348,8 @@ TEST_F(VdObject, IsDrawnAndTracedAlikeFromEverySide) {
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   scene::Scene& scene = loaded->scene;
   scene.sky.picture = ImageF(16, 8, 3, 0.1f);
-  const auto& drawables = house_.get<render::Drawables>();
-  drawables.furnish(scene);
+  const auto& drawables = registries_.get<render::Drawables>();
+  drawables.attach(scene);
   Result<std::unique_ptr<render::Renderer>> renderer =
       render::Renderer::create(scene, drawables, light::sun_and_sky);
   ASSERT_TRUE(renderer) << to_string(renderer.errors());

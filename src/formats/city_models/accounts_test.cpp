@@ -1,7 +1,7 @@
 // Accounts as they come through the registry of readers, from the child processes that read.
 #include <gtest/gtest.h>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "base/test_folder.h"
 #include "formats/readers/readers.h"
 #include "room_list.h"
@@ -12,11 +12,11 @@ namespace {
 /// The account of a file of this name and text.
 scene::FileAccount account_of(const std::string& name, const std::string& text) {
   const TestFolder folder;
-  House house;
-  furnish(house);
+  Registries registries;
+  register_room(registries);
   Errors warnings;
   const Result<scene::Model> model =
-      house.get<formats::Readers>().read(folder.write(name, text), {}, warnings);
+      registries.get<formats::Readers>().read(folder.write(name, text), {}, warnings);
   EXPECT_TRUE(model) << to_string(model.errors());
   return model && model->account ? *model->account : scene::FileAccount("none");
 }

@@ -15,7 +15,9 @@ void append_text(std::string& bytes, const std::string& text) {
   bytes += text;
 }
 
-std::string take_text(Taker& taker) { return std::string(taker.take_bytes(taker.take<std::uint64_t>())); }
+std::string take_text(ByteReader& reader) {
+  return std::string(reader.take_bytes(reader.take<std::uint64_t>()));
+}
 
 void append_tags(std::string& bytes, const OsmTags& tags) {
   append_value(bytes, std::uint64_t(tags.size()));
@@ -24,24 +26,24 @@ void append_tags(std::string& bytes, const OsmTags& tags) {
 
 /// Calls `each` as often as the count at the front says, or until the bytes end.
 template <class Each>
-void take_each(Taker& taker, const Each& each) {
-  for (auto left = taker.take<std::uint64_t>(); left > 0 && !taker.has_ended_early(); --left) each();
+void take_each(ByteReader& reader, const Each& each) {
+  for (auto left = reader.take<std::uint64_t>(); left > 0 && !reader.has_ended_early(); --left) each();
 }
 
-OsmTags take_tags(Taker& taker) {
+OsmTags take_tags(ByteReader& reader) {
   OsmTags tags;
-  take_each(taker, [&] {
-    std::string key = take_text(taker);
-    tags.insert_or_assign(std::move(key), take_text(taker));
+  take_each(reader, [&] {
+    std::string key = take_text(reader);
+    tags.insert_or_assign(std::move(key), take_text(reader));
   });
   return tags;
 }
 
 /// Reads a file in the worker; the input is the map and the file's path.
 Status read_in_worker(std::string_view input, IsolatedOutput& output) {
-  Taker taker(input);
-  const std::string map = take_text(taker);
-  const std::filesystem::path file = take_text(taker);
+  ByteReader reader(input);
+  const std::string map = take_text(reader);
+  const std::filesystem::path file = take_text(reader);
   Errors warnings;
   const Result<OsmFile> osm = read_osm_file(file, warnings, map);
   if (!osm) return osm.errors();
@@ -50,7 +52,7 @@ Status read_in_worker(std::string_view input, IsolatedOutput& output) {
   const std::span<std::byte> to = output.allocate(bytes.size());
   if (to.empty()) return error("{}: there is no memory for its {} bytes", file.string(), bytes.size());
   std::memcpy(to.data(), bytes.data(), bytes.size());
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace
@@ -82,42 +84,42 @@ std::string bytes_of(const OsmFile& osm) {
 
 Result<OsmFile> osm_file_of(std::string_view bytes, const std::string& subject) {
   if (Status status = check_memory(bytes.size(), subject + ": its elements"); !status) return status.errors();
-  Taker taker(bytes);
+  ByteReader reader(bytes);
   OsmFile osm;
   bool is_finite = true;
   const auto take_place = [&] {
-    const glm::dvec2 place = taker.take<glm::dvec2>();
+    const glm::dvec2 place = reader.take<glm::dvec2>();
     is_finite = is_finite && std::isfinite(place.x) && std::isfinite(place.y);
     return place;
   };
   for (glm::dvec2& corner : osm.corners) corner = take_place();
   osm.middle = take_place(), osm.middle_deg = take_place();
-  osm.map = take_text(taker), osm.true_north_deg = taker.take<double>();
-  osm.deleted = taker.take<std::uint64_t>();
+  osm.map = take_text(reader), osm.true_north_deg = reader.take<double>();
+  osm.deleted = reader.take<std::uint64_t>();
   is_finite = is_finite && std::isfinite(osm.true_north_deg);
-  take_each(taker, [&] {
-    const OsmId id = taker.take<OsmId>();
+  take_each(reader, [&] {
+    const OsmId id = reader.take<OsmId>();
     osm.nodes[id] = take_place();
   });
-  take_each(taker, [&] {
+  take_each(reader, [&] {
     OsmNode& node = osm.tagged_nodes.emplace_back();
-    node.id = taker.take<OsmId>(), node.tags = take_tags(taker);
+    node.id = reader.take<OsmId>(), node.tags = take_tags(reader);
   });
-  take_each(taker, [&] {
+  take_each(reader, [&] {
     OsmWay& way = osm.ways.emplace_back();
-    way.id = taker.take<OsmId>(), way.tags = take_tags(taker);
-    take_each(taker, [&] { way.nodes.push_back(taker.take<OsmId>()); });
+    way.id = reader.take<OsmId>(), way.tags = take_tags(reader);
+    take_each(reader, [&] { way.nodes.push_back(reader.take<OsmId>()); });
     osm.way_of[way.id] = osm.ways.size() - 1;
   });
-  take_each(taker, [&] {
+  take_each(reader, [&] {
     OsmRelation& relation = osm.relations.emplace_back();
-    relation.id = taker.take<OsmId>(), relation.tags = take_tags(taker);
-    take_each(taker, [&] {
+    relation.id = reader.take<OsmId>(), relation.tags = take_tags(reader);
+    take_each(reader, [&] {
       OsmRelation::Member& member = relation.members.emplace_back();
-      member.type = take_text(taker), member.role = take_text(taker), member.id = taker.take<OsmId>();
+      member.type = take_text(reader), member.role = take_text(reader), member.id = reader.take<OsmId>();
     });
   });
-  if (!taker.is_at_end() || !is_finite)
+  if (!reader.is_at_end() || !is_finite)
     return error("{}: its reader returned no whole map; the file is damaged or made to do harm", subject);
   return osm;
 }
@@ -130,9 +132,9 @@ Result<OsmFile> read_osm_file_isolated(const std::filesystem::path& file, const 
   const Result<IsolatedBytes> made = run_isolated(read_in_worker, input, subject, formats::limits_for(file));
   if (!made) return made.errors();
   const std::string_view bytes(reinterpret_cast<const char*>(made->bytes().data()), made->bytes().size());
-  Taker taker(bytes);
-  formats::take_warnings(taker, warnings);
-  return osm_file_of(taker.rest(), subject);
+  ByteReader reader(bytes);
+  formats::take_warnings(reader, warnings);
+  return osm_file_of(reader.rest(), subject);
 }
 
 }  // namespace parvis::scene

@@ -33,7 +33,7 @@ class OsmSegments {
   /// looked at, so that the work grows with the map alone.
   template <class Use>
   void each_near(glm::dvec2 a, glm::dvec2 b, const Use& use) const {
-    bool goes_on = true;
+    bool continues = true;
     each_step(a, b, [&](glm::ivec2 middle) {
       int left = max_near;
       for (int y = -1; y <= 1; ++y)
@@ -41,7 +41,7 @@ class OsmSegments {
           const auto cell = cells_.find(key(middle + glm::ivec2(x, y)));
           if (cell == cells_.end()) continue;
           for (const std::uint32_t index : cell->second)
-            if (goes_on && left > 0) goes_on = use(segments_[index]), --left;
+            if (continues && left > 0) continues = use(segments_[index]), --left;
         }
     });
   }

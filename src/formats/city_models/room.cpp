@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "formats/city_models/city_gml.h"
 #include "formats/city_models/city_json.h"
 #include "formats/city_models/osm_file_bytes.h"
@@ -57,8 +57,8 @@ Result<FileContent> read_map_on_ground(const fs::path& file, const ModelReading&
 }  // namespace
 
 /// Adds the readers of CityJSON, CityGML and OpenStreetMap.
-void furnish(House& house) {
-  formats::Readers& readers = house.get<formats::Readers>();
+void register_room(Registries& registries) {
+  formats::Readers& readers = registries.get<formats::Readers>();
   constexpr formats::TakesPacked takes_packed = formats::TakesPacked::yes;
   readers.add({".json", ".jsonl", ".cityjson"}, formats::isolated<read_json>(), formats::looks_like_json,
               takes_packed);

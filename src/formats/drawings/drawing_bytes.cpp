@@ -54,7 +54,7 @@ class Reader {
   bool is_complete() const { return taker_.is_at_end(); }
 
  private:
-  Taker taker_;
+  ByteReader taker_;
 };
 
 template <class Io, class AnyDrawing>

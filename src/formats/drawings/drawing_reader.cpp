@@ -94,7 +94,7 @@ Status check_unit(const DrawingFacts& facts, const Drawing& drawing, const std::
   if (!facts.unit_code) return ask_for_unit(drawing, file, "this drawing names no unit ($INSUNITS)");
   constexpr int inches = 1;
   const glm::dvec3 min = drawing.min / drawing.metres_per_unit, max = drawing.max / drawing.metres_per_unit;
-  if (*facts.unit_code != inches || !is_french_map(min, max)) return Done{};
+  if (*facts.unit_code != inches || !is_french_map(min, max)) return Ok{};
   Drawing in_file = drawing;
   in_file.min = min, in_file.max = max;
   return ask_for_unit(
@@ -104,10 +104,10 @@ Status check_unit(const DrawingFacts& facts, const Drawing& drawing, const std::
 }
 
 Status read_in_worker(std::string_view input, IsolatedOutput& output) {
-  Taker taker(input);
-  const bool is_given = taker.take<bool>();
-  const double unit = taker.take<double>();
-  const std::string file(taker.rest());
+  ByteReader reader(input);
+  const bool is_given = reader.take<bool>();
+  const double unit = reader.take<double>();
+  const std::string file(reader.rest());
   const Result<std::string> bytes = read_file(file, max_drawing_bytes);
   if (!bytes) return bytes.errors();
   Errors warnings;
@@ -118,7 +118,7 @@ Status read_in_worker(std::string_view input, IsolatedOutput& output) {
   const std::span<std::byte> to = output.allocate(result.size());
   if (to.empty()) return error("{}: there is no memory for its {} bytes", file, result.size());
   std::memcpy(to.data(), result.data(), result.size());
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace
@@ -158,9 +158,9 @@ Result<Drawing> read_drawing(const std::filesystem::path& file, std::optional<do
   input += std::filesystem::absolute(file).string();
   const Result<IsolatedBytes> made = run_isolated(&read_in_worker, input, file.string(), limits_for(file));
   if (!made) return made.errors();
-  Taker taker({reinterpret_cast<const char*>(made->bytes().data()), made->bytes().size()});
-  take_warnings(taker, warnings);
-  return drawing_of(taker.rest(), file.string());
+  ByteReader reader({reinterpret_cast<const char*>(made->bytes().data()), made->bytes().size()});
+  take_warnings(reader, warnings);
+  return drawing_of(reader.rest(), file.string());
 }
 
 }  // namespace parvis::formats

@@ -58,7 +58,7 @@ Status write_header() {
   VSILFILE* const file = VSIFOpenL(header_in_memory, "wb");
   const bool is_written =
       file && VSIFWriteL(header->data(), 1, header->size(), file) == header->size() && VSIFCloseL(file) == 0;
-  return is_written ? Status(Done{}) : Status(error("there is no memory for the drawing's header"));
+  return is_written ? Status(Ok{}) : Status(error("there is no memory for the drawing's header"));
 }
 
 std::string pen(glm::u8vec3 colour) {
@@ -151,7 +151,7 @@ Status write_in_memory(const DxfPlan& plan) {
   GDALClose(dataset);
   if (!is_complete || CPLGetLastErrorType() == CE_Failure)
     return error("GDAL could not write all of the drawing ({})", CPLGetLastErrorMsg());
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

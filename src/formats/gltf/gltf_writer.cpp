@@ -71,7 +71,7 @@ class Writer {
       const Json json = animation_json(animation, object, parts.meshes);
       if (!json["channels"].empty()) animations_.push_back(json);
     }
-    return Done{};
+    return Ok{};
   }
 
   Status add(const Object& object) {
@@ -90,7 +90,7 @@ class Writer {
     for (const auto& [name, bytes] : own.views)
       if (!bytes.empty()) json["views"][name] = chunk_.add_bytes(bytes);  // glTF has no empty views
     extensions_[own.extension] = std::move(json);
-    return Done{};
+    return Ok{};
   }
 
   Status write(const fs::path& file) const {

@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "formats/gltf/gltf_reader.h"
 #include "formats/readers/content.h"
 #include "formats/readers/isolated_reader.h"
@@ -17,9 +17,9 @@ bool is_gltf(std::string_view front) { return front.starts_with("glTF") || forma
 }  // namespace
 
 /// Adds the reader of .glb and .gltf.
-void furnish(House& house) {
-  house.get<formats::Readers>().add({".glb", ".gltf"}, formats::isolated<read_model>(), is_gltf,
-                                    formats::TakesPacked::yes);
+void register_room(Registries& registries) {
+  registries.get<formats::Readers>().add({".glb", ".gltf"}, formats::isolated<read_model>(), is_gltf,
+                                         formats::TakesPacked::yes);
 }
 
 }  // namespace parvis::gltf

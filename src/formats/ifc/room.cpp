@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "formats/ifc/ifc_reader.h"
 #include "formats/readers/content.h"
 #include "formats/readers/isolated_reader.h"
@@ -25,9 +25,9 @@ bool looks_like_step(std::string_view front) {
 }  // namespace
 
 /// Adds the reader of .ifc.
-void furnish(House& house) {
-  house.get<formats::Readers>().add({".ifc"}, formats::isolated<read>(), looks_like_step,
-                                    formats::TakesPacked::yes);
+void register_room(Registries& registries) {
+  registries.get<formats::Readers>().add({".ifc"}, formats::isolated<read>(), looks_like_step,
+                                         formats::TakesPacked::yes);
 }
 
 }  // namespace parvis::ifc

@@ -57,7 +57,7 @@ Status check_nesting(std::string_view text, const std::string& file) {
       --depth;
     }
   }
-  return Done{};
+  return Ok{};
 }
 
 glm::vec3 vector(const SbVec3f& v) { return {v[0], v[1], v[2]}; }

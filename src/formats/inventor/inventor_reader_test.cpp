@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "base/house.h"
 #include "base/image_io.h"
+#include "base/registries.h"
 #include "base/test_folder.h"
 #include "formats/inventor/test_files.h"
 #include "room_list.h"
@@ -18,10 +18,10 @@ using scene::Part;
 
 class Inventor : public testing::Test {
  protected:
-  Inventor() { inventor::furnish(house_); }
+  Inventor() { inventor::register_room(registries_); }
   /// Loads a model as scripts do: in a child process.
   Result<Model> load(const std::string& name, std::string_view text) {
-    return house_.get<formats::Readers>().read(folder_.write(name, text), {}, warnings_);
+    return registries_.get<formats::Readers>().read(folder_.write(name, text), {}, warnings_);
   }
   Model read(const std::string& name, std::string_view text) {
     Result<Model> model = load(name, text);
@@ -38,7 +38,7 @@ class Inventor : public testing::Test {
     return found == model.parts.end() ? nullptr : &*found;
   }
 
-  House house_;
+  Registries registries_;
   TestFolder folder_;
   Errors warnings_;
 };

@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "formats/inventor/inventor_reader.h"
 #include "formats/readers/isolated_reader.h"
 #include "room_list.h"
@@ -13,8 +13,9 @@ bool looks_like_inventor(std::string_view front) {
 }  // namespace
 
 /// Adds the reader of .iv and .wrl.
-void furnish(House& house) {
-  house.get<formats::Readers>().add({".iv", ".wrl"}, formats::isolated<read_inventor>(), looks_like_inventor);
+void register_room(Registries& registries) {
+  registries.get<formats::Readers>().add({".iv", ".wrl"}, formats::isolated<read_inventor>(),
+                                         looks_like_inventor);
 }
 
 }  // namespace parvis::inventor

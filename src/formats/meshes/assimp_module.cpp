@@ -152,7 +152,7 @@ class Converter {
           low = glm::min(low, at), high = glm::max(high, at);
         }
       }
-      return Status(Done{});
+      return Status(Ok{});
     });
     model_.origin = formats::local_origin(low, high);
     if (model_.origin == glm::dvec3(0.0) || is_exact_in_single_precision()) return;
@@ -181,7 +181,7 @@ class Converter {
       if (Status status = visit(*node, model_from_node); !status) return status;
       for (unsigned i = node->mNumChildren; i-- > 0;) open.emplace_back(node->mChildren[i], model_from_node);
     }
-    return Done{};
+    return Ok{};
   }
 
   /// Meshes under their nodes' transforms, which are worked into the vertices: these formats animate nothing
@@ -200,7 +200,7 @@ class Converter {
       for (unsigned i = 0; i < node.mNumMeshes; ++i)
         if (Status status = add_mesh(*source_.mMeshes[node.mMeshes[i]], node, model_from_node); !status)
           return status;
-      return Done{};
+      return Ok{};
     });
   }
 
@@ -229,7 +229,7 @@ class Converter {
         for (unsigned k = 0; k < 3; ++k) mesh.indices.push_back(source.mFaces[i].mIndices[k]);
     account_.left_out("primitives", "points and lines have no surface", source.mName.C_Str(),
                       source.mNumFaces - mesh.indices.size() / 3);
-    if (mesh.indices.empty()) return Done{};
+    if (mesh.indices.empty()) return Ok{};
     count_attributes(source);
     const std::string name = source.mName.length > 0 ? source.mName.C_Str() : node.mName.C_Str();
     for (glm::vec3& normal :
@@ -246,7 +246,7 @@ class Converter {
     fill_normals(mesh);
     const int material = std::min(int(source.mMaterialIndex), int(model_.materials.size()) - 1);
     model_.parts.push_back({name, std::move(mesh), material, 0, true});
-    return Done{};
+    return Ok{};
   }
 
   void count_attributes(const aiMesh& source) {

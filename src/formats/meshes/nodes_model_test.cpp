@@ -3,7 +3,7 @@
 #include "base/test_data.h"
 #include "formats/gltf/gltf_writer.h"
 #include "life/traffic/demand.h"
-#include "scene/script/test_house.h"
+#include "scene/script/test_registries.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::scene {
@@ -30,11 +30,11 @@ Model two_squares() {
 
 class ModelNodes : public ScriptTest<> {
  protected:
-  ModelNodes() : ScriptTest(test_house()) {
+  ModelNodes() : ScriptTest(test_registries()) {
     EXPECT_TRUE(write_gltf(folder_.path() / "two.glb", two_squares()));
   }
 
-  const NodeRegistry& registry_ = house_.get<NodeRegistry>();
+  const NodeRegistry& registry_ = registries_.get<NodeRegistry>();
 };
 
 const Material& material_of(const Model& model, const std::string& object) {

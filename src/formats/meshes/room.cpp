@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "formats/meshes/mesh_formats.h"
 #include "formats/meshes/mesh_nodes.h"
 #include "room_list.h"
@@ -6,9 +6,9 @@
 namespace parvis::meshes {
 
 /// Adds model, object, material, wheels; the reader of every file that no other room reads.
-void furnish(House& house) {
-  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
-  formats::Readers& readers = house.get<formats::Readers>();
+void register_room(Registries& registries) {
+  scene::NodeRegistry& registry = registries.get<scene::NodeRegistry>();
+  formats::Readers& readers = registries.get<formats::Readers>();
   scene::add_model_node(registry, readers);
   scene::add_object_node(registry, readers);
   scene::add_material_nodes(registry);

@@ -43,15 +43,17 @@ void append_text(std::string& bytes, const std::string& text) {
   bytes += text;
 }
 
-std::string take_text(Taker& taker) { return std::string(taker.take_bytes(taker.take<std::uint64_t>())); }
+std::string take_text(ByteReader& reader) {
+  return std::string(reader.take_bytes(reader.take<std::uint64_t>()));
+}
 
 /// A place on the earth as it travels back; not a number where the file says none.
 glm::dvec2 place_to_send(const std::optional<glm::dvec2>& place_deg) {
   return place_deg.value_or(glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
 }
 
-std::optional<glm::dvec2> take_place(Taker& taker) {
-  const glm::dvec2 deg = taker.take<glm::dvec2>();
+std::optional<glm::dvec2> take_place(ByteReader& reader) {
+  const glm::dvec2 deg = reader.take<glm::dvec2>();
   const bool is_on_earth = std::abs(deg.x) <= 180.0 && std::abs(deg.y) <= 90.0;
   return is_on_earth ? std::optional(deg) : std::nullopt;
 }
@@ -82,13 +84,13 @@ std::string bytes_of_warnings(const Errors& warnings) {
   return bytes;
 }
 
-void take_warnings(Taker& taker, Errors& warnings) {
-  for (auto left = taker.take<std::uint64_t>(); left > 0 && !taker.has_ended_early(); --left) {
+void take_warnings(ByteReader& reader, Errors& warnings) {
+  for (auto left = reader.take<std::uint64_t>(); left > 0 && !reader.has_ended_early(); --left) {
     Error& warning = warnings.emplace_back();
-    warning.message = take_text(taker);
-    warning.where.file = take_text(taker);
-    warning.where.line = taker.take<int>();
-    warning.where.column = taker.take<int>();
+    warning.message = take_text(reader);
+    warning.where.file = take_text(reader);
+    warning.where.line = reader.take<int>();
+    warning.where.column = reader.take<int>();
   }
 }
 
@@ -106,28 +108,28 @@ std::string bytes_of_account(const scene::FileAccount& account) {
   return bytes;
 }
 
-scene::FileAccount take_account(Taker& taker) {
-  scene::FileAccount account(take_text(taker));
-  for (auto left = taker.take<std::uint64_t>(); left > 0 && !taker.has_ended_early(); --left) {
-    const auto fate = std::min(taker.take<std::uint8_t>(), std::uint8_t(scene::Fate::left_out));
-    const std::string kind = take_text(taker), reason = take_text(taker);
-    const auto count = std::size_t(taker.take<std::uint64_t>());
-    auto names = taker.take<std::uint64_t>();
+scene::FileAccount take_account(ByteReader& reader) {
+  scene::FileAccount account(take_text(reader));
+  for (auto left = reader.take<std::uint64_t>(); left > 0 && !reader.has_ended_early(); --left) {
+    const auto fate = std::min(reader.take<std::uint8_t>(), std::uint8_t(scene::Fate::left_out));
+    const std::string kind = take_text(reader), reason = take_text(reader);
+    const auto count = std::size_t(reader.take<std::uint64_t>());
+    auto names = reader.take<std::uint64_t>();
     account.add(scene::Fate(fate), kind, reason, "", count);
-    for (; names > 0 && !taker.has_ended_early(); --names) account.name_last(take_text(taker));
+    for (; names > 0 && !reader.has_ended_early(); --names) account.name_last(take_text(reader));
   }
   return account;
 }
 
 Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput& output) {
-  Taker taker(input);
-  const Order order = taker.take<Order>();
+  ByteReader reader(input);
+  const Order order = reader.take<Order>();
   ModelReading reading;
   reading.up = order.up;
   if (order.has_detail) reading.max_detail = order.max_detail;
   if (order.has_cell) reading.cell_m = order.cell_m;
-  reading.map = take_text(taker);
-  const fs::path file = take_text(taker);
+  reading.map = take_text(reader);
+  const fs::path file = take_text(reader);
   if (likely_content_bytes(file) > small_bytes) std::ignore = openimageio.functions();
   std::optional<glm::dvec2> place_deg;
   reading.place_deg = &place_deg;
@@ -146,7 +148,7 @@ Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput
   if (bytes.empty()) return error("{}: there is no memory for its {} bytes", file.string(), size);
   std::memcpy(bytes.data(), front.data(), front.size());
   put_bytes(model, bytes.subspan(front.size()));
-  return Done{};
+  return Ok{};
 }
 
 Result<FileContent> read_isolated(IsolatedWork work, const fs::path& file, const ModelReading& reading,
@@ -160,14 +162,14 @@ Result<FileContent> read_isolated(IsolatedWork work, const fs::path& file, const
   const Result<IsolatedBytes> made = run_isolated(work, input, subject, limits_for(file));
   if (!made) return made.errors();
   const std::string_view bytes(reinterpret_cast<const char*>(made->bytes().data()), made->bytes().size());
-  Taker taker(bytes);
-  take_warnings(taker, warnings);
-  scene::FileAccount account = take_account(taker);
-  const std::optional<glm::dvec2> place_deg = take_place(taker);
+  ByteReader reader(bytes);
+  take_warnings(reader, warnings);
+  scene::FileAccount account = take_account(reader);
+  const std::optional<glm::dvec2> place_deg = take_place(reader);
   if (reading.place_deg) *reading.place_deg = place_deg;
-  if (Status status = check_memory(taker.rest().size(), subject + ": its content"); !status)
+  if (Status status = check_memory(reader.rest().size(), subject + ": its content"); !status)
     return status.errors();
-  Result<scene::Model> model = model_of(taker.rest(), subject);
+  Result<scene::Model> model = model_of(reader.rest(), subject);
   if (!model) return model.errors();
   return FileContent{*std::move(model), std::move(account)};
 }

@@ -18,12 +18,12 @@ IsolationLimits limits_for(const std::filesystem::path& file);
 /// Warnings as flat bytes: they stand before what a child returns.
 std::string bytes_of_warnings(const Errors& warnings);
 /// Adds the warnings at the front of what a child has returned to `warnings`.
-void take_warnings(Taker& taker, Errors& warnings);
+void take_warnings(ByteReader& reader, Errors& warnings);
 
 /// An account as flat bytes, which stand behind the warnings; lines and names are bounded when it is taken.
 std::string bytes_of_account(const scene::FileAccount& account);
 /// The account at the front of what a child has returned.
-scene::FileAccount take_account(Taker& taker);
+scene::FileAccount take_account(ByteReader& reader);
 
 /// Runs in the child: reads the file that `input` names and fills `output` with warnings, account and model.
 Status read_in_worker(ReadFunction* read, std::string_view input, IsolatedOutput& output);

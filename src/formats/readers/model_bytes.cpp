@@ -101,7 +101,7 @@ class Filler {
   }
 
  private:
-  Taker taker_;
+  ByteReader taker_;
 };
 
 // Each function below names the fields of one type once, for both directions: `io` is a Putter or a Counter

@@ -42,7 +42,7 @@ struct Flow {
   std::span<char> room;
 };
 
-enum class Outcome : unsigned char { goes_on, stream_ended, damaged };
+enum class Outcome : unsigned char { continues, stream_ended, damaged };
 
 class GzipStream {
  public:
@@ -66,7 +66,7 @@ class GzipStream {
     flow.packed.remove_prefix(given - stream_.avail_in);
     flow.room = flow.room.last(stream_.avail_out);
     if (code == Z_STREAM_END) return Outcome::stream_ended;
-    return code == Z_OK || code == Z_BUF_ERROR ? Outcome::goes_on : Outcome::damaged;
+    return code == Z_OK || code == Z_BUF_ERROR ? Outcome::continues : Outcome::damaged;
   }
   void restart() { is_open_ = inflateReset(&stream_) == Z_OK; }
 
@@ -101,7 +101,7 @@ class Bzip2Stream {
     flow.packed.remove_prefix(given - stream_.avail_in);
     flow.room = flow.room.last(stream_.avail_out);
     if (code == BZ_STREAM_END) return Outcome::stream_ended;
-    return code == BZ_OK ? Outcome::goes_on : Outcome::damaged;
+    return code == BZ_OK ? Outcome::continues : Outcome::damaged;
   }
   void restart() {
     BZ2_bzDecompressEnd(&stream_);
@@ -124,11 +124,11 @@ struct UnpackLimits {
 
 /// Room for one more piece, asked for before it is taken.
 Status make_room(std::string& text, const std::string& subject) {
-  if (text.size() + piece_bytes <= text.capacity()) return Done{};
+  if (text.size() + piece_bytes <= text.capacity()) return Ok{};
   const std::size_t wanted = 2 * text.capacity() + piece_bytes;
   if (Status enough = check_memory(wanted, "unpacking " + subject); !enough) return enough.errors();
   text.reserve(wanted);
-  return Done{};
+  return Ok{};
 }
 
 template <class Stream>

@@ -202,13 +202,13 @@ Status place(const Georeference& given, int width, int height, const std::string
           metres, std::isfinite(metres.x + metres.y) ? point.z : std::numeric_limits<double>::quiet_NaN());
     }
   const std::optional<MapProjection>& shown = target.map ? target.map : target.own;
-  if (!shown) return Done{};
+  if (!shown) return Ok{};
   const glm::dvec2 deg = given.is_in_degrees ? middle : target.own->degrees(given.unit_m * middle);
-  if (!std::isfinite(deg.x + deg.y)) return Done{};
+  if (!std::isfinite(deg.x + deg.y)) return Ok{};
   grid.map = shown->system();
   grid.true_north_deg = shown->true_north_deg(deg);
   grid.place_deg = glm::dvec2(deg.x - 360.0 * std::floor((deg.x + 180.0) / 360.0), deg.y);
-  return Done{};
+  return Ok{};
 }
 
 /// North up, about the middle.

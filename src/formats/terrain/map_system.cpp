@@ -14,7 +14,7 @@ constexpr std::size_t max_digits = 6;  // of EPSG's numbers
 
 Status projections_known() {
   const Result<const ProjFunctions*> functions = proj.functions();
-  return functions ? Status(Done{}) : functions.errors();
+  return functions ? Status(Ok{}) : functions.errors();
 }
 
 std::optional<int> epsg_in(std::string_view name) {

@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "formats/readers/isolated_reader.h"
 #include "formats/readers/plain_account.h"
 #include "formats/terrain/terrain.h"
@@ -27,8 +27,8 @@ bool is_tiff(std::string_view front) {
 }  // namespace
 
 /// Adds the reader of height grids in TIFF.
-void furnish(House& house) {
-  formats::Readers& readers = house.get<formats::Readers>();
+void register_room(Registries& registries) {
+  formats::Readers& readers = registries.get<formats::Readers>();
   readers.add({".tif", ".tiff"}, formats::isolated<read_grid>(), is_tiff);
 }
 

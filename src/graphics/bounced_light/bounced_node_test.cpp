@@ -12,8 +12,8 @@ namespace {
 class BouncedNode : public scene::ScriptTest<> {
  protected:
   BouncedNode() {
-    script::furnish(house_);
-    bounced_light::furnish(house_);
+    script::register_room(registries_);
+    bounced_light::register_room(registries_);
   }
   scene::BouncedSettings settings_of(const std::string& script) const {
     return scene_of(script).data<scene::BouncedSettings>();
@@ -44,7 +44,7 @@ TEST_F(BouncedNode, SaysWhatIsWrong) {
 
 /// Its places are laid out once: what would change them is refused when the scene is loaded.
 TEST_F(BouncedNode, IsTheSameInAllScenariosAndTakesNoMessages) {
-  action::furnish(house_);
+  action::register_room(registries_);
   for (const auto& [script, words] :
        {std::pair{
             "bouncedLight()\nscenario(name=\"fine\") { override(of=\"%bouncedLight\", spacing=2) }\n",

@@ -16,15 +16,15 @@ namespace {
 class BouncedScene : public scene::ScriptTest<gl::ContextTest> {
  protected:
   BouncedScene() {
-    for (const auto furnish :
-         {script::furnish, gltf::furnish, meshes::furnish, light::furnish, bounced_light::furnish})
-      furnish(house_);
+    for (const auto register_room : {script::register_room, gltf::register_room, meshes::register_room,
+                                     light::register_room, bounced_light::register_room})
+      register_room(registries_);
     scene::write_grey(folder_.path() / "ground.glb", scene::ground(24));
     scene::write_grey(folder_.path() / "west.glb", scene::box({-10, -20, 0}, {-6, 20, 9}));
     scene::write_grey(folder_.path() / "east.glb", scene::box({6, -20, 0}, {10, 20, 9}));
   }
   std::unique_ptr<render::Renderer> renderer_of(const scene::Scene& scene) const {
-    return render::renderer_of(scene, house_.get<render::Lights>().make);
+    return render::renderer_of(scene, registries_.get<render::Lights>().make);
   }
   /// The light in all cells when a frame has been drawn.
   static std::vector<glm::vec4> light_in(render::Renderer& renderer, const scene::Scene& scene) {

@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "base/sealed_file.h"
 #include "base/test_data.h"
 #include "base/test_folder.h"
@@ -122,11 +122,12 @@ TEST_F(KeptTransfer, OfAnotherSceneOrDamagedIsNotUsed) {
 }
 
 TEST_F(KeptTransfer, IsTracedAgainWhereItCannotBeUsed) {
-  House house;
-  furnish(house);
-  const render::BakeStep& step = house.get<render::BakeSteps>().all().front();
+  Registries registries;
+  register_room(registries);
+  const render::BakeStep& step = registries.get<render::BakeSteps>().all().front();
   const auto bake = [&] {
-    render::BakeInput input(scene_, house.get<render::Drawables>(), house.get<render::Lights>().make);
+    render::BakeInput input(scene_, registries.get<render::Drawables>(),
+                            registries.get<render::Lights>().make);
     const Result<render::Baked> baked = step.run(input);
     EXPECT_TRUE(baked) << to_string(baked.errors());
     return baked ? baked->kept : std::set<fs::path>();

@@ -1,5 +1,5 @@
-#include "base/house.h"
 #include "base/progress.h"
+#include "base/registries.h"
 #include "graphics/bounced_light/bounced_over.h"
 #include "graphics/bounced_light/transfer_cache.h"
 #include "graphics/render/bake_steps.h"
@@ -62,11 +62,11 @@ void forget_others(const scene::Scene& scene, const std::set<std::filesystem::pa
 }  // namespace
 
 /// The node bouncedLight, and its light over that of render::Lights. After the room that chooses that light.
-void furnish(House& house) {
-  house.get<scene::NodeRegistry>().add(bounced_light_schema(), build);
-  render::MakeLight& make = house.get<render::Lights>().make;
+void register_room(Registries& registries) {
+  registries.get<scene::NodeRegistry>().add(bounced_light_schema(), build);
+  render::MakeLight& make = registries.get<render::Lights>().make;
   make = with_bounced_light(std::move(make));
-  house.get<render::BakeSteps>().add(
+  registries.get<render::BakeSteps>().add(
       {.name = "what bounced light hits", .run = bake, .forget_others = forget_others});
 }
 

@@ -20,10 +20,10 @@ void append(std::string& bytes, const Patch& patch) {  // by member: a copy woul
   append_value(bytes, patch.sees_sky);
 }
 
-Patch take_patch(Taker& taker) {
+Patch take_patch(ByteReader& reader) {
   Patch patch;
-  for (glm::vec3* value : {&patch.position, &patch.normal, &patch.albedo}) *value = taker.take<glm::vec3>();
-  patch.sees_sky = taker.take<decltype(patch.sees_sky)>();
+  for (glm::vec3* value : {&patch.position, &patch.normal, &patch.albedo}) *value = reader.take<glm::vec3>();
+  patch.sees_sky = reader.take<decltype(patch.sees_sky)>();
   return patch;
 }
 
@@ -44,18 +44,18 @@ std::string Transfer::to_bytes() const {
 }
 
 std::optional<Transfer> Transfer::from_bytes(std::string_view bytes) {
-  Taker taker(bytes);
+  ByteReader reader(bytes);
   Transfer result;
-  result.grid_ = taker.take<shading::BouncedGrid>();
-  result.cells_ = taker.take<glm::ivec3>();
-  result.rays_ = taker.take<int>();
-  result.air_ = taker.take_values<std::uint32_t>();
-  result.seen_ = taker.take_values<std::int32_t>();
-  result.is_air_ = taker.take_values<std::uint8_t>();
-  for (auto left = taker.take<std::uint32_t>(); left > 0 && !taker.has_ended_early(); --left)
-    result.patches_.push_back(take_patch(taker));
-  result.lit_points_ = taker.take_values<glm::vec3>();
-  if (!taker.is_at_end() || !result.is_consistent()) return std::nullopt;
+  result.grid_ = reader.take<shading::BouncedGrid>();
+  result.cells_ = reader.take<glm::ivec3>();
+  result.rays_ = reader.take<int>();
+  result.air_ = reader.take_values<std::uint32_t>();
+  result.seen_ = reader.take_values<std::int32_t>();
+  result.is_air_ = reader.take_values<std::uint8_t>();
+  for (auto left = reader.take<std::uint32_t>(); left > 0 && !reader.has_ended_early(); --left)
+    result.patches_.push_back(take_patch(reader));
+  result.lit_points_ = reader.take_values<glm::vec3>();
+  if (!reader.is_at_end() || !result.is_consistent()) return std::nullopt;
   result.find_walls();
   return result;
 }

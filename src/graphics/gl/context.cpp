@@ -79,7 +79,7 @@ void GLAPIENTRY report(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, co
 
 Status check_address_space() {
   rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur >= min_address_space_bytes) return Done{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur >= min_address_space_bytes) return Ok{};
   return error("drawing takes {} MB of address space, and this process may have {} (ulimit -v): allow more",
                min_address_space_bytes / 1'000'000, limit.rlim_cur / 1'000'000);
 }
@@ -130,7 +130,7 @@ Status check_current() {
   glEnable(GL_DEBUG_OUTPUT);
   glDebugMessageCallback(report, nullptr);
 #endif
-  return Done{};
+  return Ok{};
 }
 
 std::string refused() {

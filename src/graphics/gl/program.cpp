@@ -29,7 +29,7 @@ struct Assembly {
   std::string text{};
 
   Status add(const std::string& path) {
-    if (!seen.insert(path).second) return Done{};
+    if (!seen.insert(path).second) return Ok{};
     const char* body = embedded_text(path);
     if (!body) return error("{}: no such shader file is embedded", path);
     const std::size_t number = files.size();
@@ -53,7 +53,7 @@ struct Assembly {
       }
       text += fmt::format("#line {} {}\n", line_number + 1, number);
     }
-    return Done{};
+    return Ok{};
   }
 
   std::string included(const std::string& name, const std::string& file) const {

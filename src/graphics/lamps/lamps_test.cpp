@@ -288,9 +288,9 @@ TEST_F(LampPicture, LampsOfMovingObjectsFollowThemAndArePartOfNoStillPicture) {
 class LampNode : public scene::ScriptTest<> {
  protected:
   LampNode() {
-    script::furnish(house_);
-    light::furnish(house_);
-    add_lamp_node(house_.get<scene::NodeRegistry>());
+    script::register_room(registries_);
+    light::register_room(registries_);
+    add_lamp_node(registries_.get<scene::NodeRegistry>());
   }
 };
 

@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "graphics/lamps/lamp_light.h"
 #include "graphics/lamps/lamp_process.h"
 #include "graphics/lamps/nodes_lamp.h"
@@ -11,10 +11,10 @@ namespace parvis::lamps {
 
 /// The node lamp, the process that shows what lamps show, and lamps over the light of render::Lights. After
 /// the room that chooses that light.
-void furnish(House& house) {
-  add_lamp_node(house.get<scene::NodeRegistry>());
-  house.get<action::Processes>().add([] { return std::make_unique<LampProcess>(); });
-  render::MakeLight& make = house.get<render::Lights>().make;
+void register_room(Registries& registries) {
+  add_lamp_node(registries.get<scene::NodeRegistry>());
+  registries.get<action::Processes>().add([] { return std::make_unique<LampProcess>(); });
+  render::MakeLight& make = registries.get<render::Lights>().make;
   make = with_lamps(std::move(make));
 }
 

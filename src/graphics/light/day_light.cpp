@@ -67,11 +67,10 @@ void DayLight::hash(ContentHash& hash) const {
 }
 
 float exposure_for(float illuminance) {
-  constexpr float noon = 146.0f;    // 100,000 lux
-  constexpr float minimum = 3e-4f;  // 0.2 lux: eyes see no colour below
-  constexpr float displayed =
-      10.0f;  // illuminance times exposure at noon, as the house's other scenes have it
-  constexpr float unadapted = 0.2f;  // power of what adaptation leaves
+  constexpr float noon = 146.0f;      // 100,000 lux
+  constexpr float minimum = 3e-4f;    // 0.2 lux: eyes see no colour below
+  constexpr float displayed = 10.0f;  // illuminance times exposure at noon, as Parvis's other scenes have it
+  constexpr float unadapted = 0.2f;   // power of what adaptation leaves
   const float light = std::max(illuminance, minimum);
   return displayed / light * std::pow(light / noon, unadapted);
 }
@@ -96,7 +95,7 @@ void adapt(scene::Scene& scene) {
 
 Status light_scene(scene::Scene& scene) {
   DayLight& day = scene.data<DayLight>();
-  if (!day.is_given) return Done{};
+  if (!day.is_given) return Ok{};
   day.when.true_north_deg = scene.true_north_deg;
   if (Status status = check(day.when); !status) return status.errors();
   Result<std::shared_ptr<const SkyModel>> made = make_sky(day.kind, day.air, sun_of(day.when));
@@ -112,7 +111,7 @@ Status light_scene(scene::Scene& scene) {
   day.illuminance = sky.irradiance_xyz({0, 0, 1}).y;
   scene.data<scene::Darkness>().is_dark = day.illuminance < lamps_on;
   adapt(scene);
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis::light

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "base/colour.h"
-#include "base/house.h"
 #include "base/image_io.h"
+#include "base/registries.h"
 #include "base/test_folder.h"
 #include "graphics/light/cloud_cover.h"
 #include "room_list.h"
@@ -20,17 +20,17 @@
 namespace parvis::light {
 namespace {
 
-const House& house() {
-  static const House furnished = [] {
-    House all;
-    script::furnish(all);
-    light::furnish(all);
+const Registries& registries() {
+  static const Registries filled = [] {
+    Registries all;
+    script::register_room(all);
+    light::register_room(all);
     return all;
   }();
-  return furnished;
+  return filled;
 }
 
-const scene::NodeRegistry& registry() { return house().get<scene::NodeRegistry>(); }
+const scene::NodeRegistry& registry() { return registries().get<scene::NodeRegistry>(); }
 
 Result<scene::LoadedScene> load(const TestFolder& folder, const std::string& script) {
   folder.write("scene.xp", script);
@@ -274,7 +274,7 @@ class RunningSunPath {
     EXPECT_TRUE(loaded_) << to_string(loaded_.errors());
     scene::LiveScene live(std::move(loaded_->script));
     EXPECT_TRUE(live.prepare_scenarios(loaded_->scene));
-    clock_.emplace(house().get<action::Processes>(), std::move(live), loaded_->scene);
+    clock_.emplace(registries().get<action::Processes>(), std::move(live), loaded_->scene);
   }
   scene::Scene& scene() { return loaded_->scene; }
   action::SceneClock& clock() { return *clock_; }

@@ -68,7 +68,7 @@ Status check(const PlaceAndTime& when) {
   expect(when.time_of_day_h >= 0.0 && when.time_of_day_h < 24.0, "time of day", when.time_of_day_h,
          "from 0 to below 24 hours (14.25 is 14:15)");
   if (!errors.empty()) return errors;
-  return Done{};
+  return Ok{};
 }
 
 double julian_day(const PlaceAndTime& when) {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "graphics/light/day_light.h"
 #include "graphics/light/nodes_day_light.h"
 #include "graphics/light/nodes_shadow_map.h"
@@ -128,15 +128,15 @@ NodeSchema exposure_schema() {
 }  // namespace parvis::scene
 
 /// Adds the node types, and sun and sky as lights.
-void parvis::light::furnish(House& house) {
+void parvis::light::register_room(Registries& registries) {
   using namespace parvis::scene;
-  house.get<render::Lights>().make = light::sun_and_sky;
-  NodeRegistry& registry = house.get<NodeRegistry>();
+  registries.get<render::Lights>().make = light::sun_and_sky;
+  NodeRegistry& registry = registries.get<NodeRegistry>();
   registry.add(sun_schema(), build_sun);
   registry.add(sky_schema(), build_sky);
   light::add_day_light_nodes(registry);
   light::add_shadow_map_node(registry);
-  light::add_sun_path(house);
+  light::add_sun_path(registries);
   registry.add(air_schema(), [](const Node& node, SceneBuilder& builder) {
     builder.scene.haze_per_m = float(node.number("haze_per_m"));
   });

@@ -71,9 +71,9 @@ std::vector<int> sun_path_days(const scene::Node& node, int year) {
   return {day_of_year(year, 12, 21), day_of_year(year, 3, 21), day_of_year(year, 6, 21)};
 }
 
-void add_sun_path(House& house) {
-  house.get<scene::NodeRegistry>().add(sun_path_schema(), build_sun_path);
-  house.get<action::Processes>().add([] { return std::make_unique<SunPathProcess>(); });
+void add_sun_path(Registries& registries) {
+  registries.get<scene::NodeRegistry>().add(sun_path_schema(), build_sun_path);
+  registries.get<action::Processes>().add([] { return std::make_unique<SunPathProcess>(); });
 }
 
 }  // namespace parvis::light

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "scene/script/node.h"
 
 namespace parvis::light {
@@ -11,7 +11,7 @@ namespace parvis::light {
 inline constexpr const char* sun_path_type = "sunPath";
 
 /// Adds sunPath to the nodes that scripts may use, and the process that lets it follow dayLight.
-void add_sun_path(House& house);
+void add_sun_path(Registries& registries);
 
 /// The days of the year of which a node sunPath shows the arcs: the one that it names, in a year without it
 /// the last, or both solstices and the equinox.

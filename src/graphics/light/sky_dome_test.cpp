@@ -18,8 +18,8 @@ namespace {
 class SkyDomeNode : public scene::ScriptTest<> {
  protected:
   SkyDomeNode() {
-    script::furnish(house_);
-    light::furnish(house_);
+    script::register_room(registries_);
+    light::register_room(registries_);
   }
   /// An overcast sky over dark land.
   void write_dome(int width, int height) const {

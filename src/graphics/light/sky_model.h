@@ -1,5 +1,5 @@
 // The light of the sky and the sun by one of several models, behind one interface: that of the thesis's
-// pfSkyModel (appendix A.2) in the house's frame (x east, y north, z up; the thesis has x south, y east, z
+// pfSkyModel (appendix A.2) in Parvis's frame (x east, y north, z up; the thesis has x south, y east, z
 // up).
 #pragma once
 

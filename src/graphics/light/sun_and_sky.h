@@ -25,6 +25,9 @@ class SunAndSky final : public render::LightSource {
     shadows_->update(camera, sun_, moving, draw);
     inserted_.draw(camera, sun_, moving, draw);
   }
+  void cast_held(const Bounds& casters, const render::DrawView& draw) override {
+    shadows_->cast_held(casters, draw);
+  }
   render::TracedSun trace_view(const Camera& camera, int width, int height) override {
     return shadows_->trace_view(camera, width, height);
   }

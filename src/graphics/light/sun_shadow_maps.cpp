@@ -175,6 +175,7 @@ void SunShadowMaps::aim_near(const NearMap& near) {
 void SunShadowMaps::draw_near_fixed(const render::DrawView& draw, bool is_apart) {
   is_apart_ = is_apart;
   drawn_over_.clear();
+  held_over_.reset();
   if (is_apart) drawn_over_.push_back({glm::ivec2(0), glm::ivec2(map_size)});
   for (render::View view : near_views_) {
     if (is_apart) view.framebuffer = near_fixed_framebuffer_.name();
@@ -312,6 +313,8 @@ void SunShadowMaps::update(const Camera& camera, const scene::SunLight& sun, std
     draw_near_fixed(draw, !moving.empty());
   }
 
+  if (held_over_) drawn_over_.push_back(*held_over_);
+  held_over_.reset();
   for (const Square& square : drawn_over_) put_back(square);
   drawn_over_.clear();
   if (moving.empty()) return;
@@ -326,6 +329,19 @@ void SunShadowMaps::update(const Camera& camera, const scene::SunLight& sun, std
     moving_view.subjects = render::Subjects::moving;
     moving_view.clears = false;
     draw(moving_view);
+  }
+}
+
+void SunShadowMaps::cast_held(const Bounds& casters, const render::DrawView& draw) {
+  if (!is_apart_) keep_near_fixed();
+  if (held_over_) put_back(*held_over_);
+  held_over_ = square_of(shading::shadow_near_map, casters);
+  if (maps_.tile_count > 0) held_over_ = Square{glm::ivec2(0), glm::ivec2(map_size)};
+  if (held_over_->size.x <= 0 || held_over_->size.y <= 0) return held_over_.reset();
+  for (render::View view : near_views_) {
+    view.subjects = render::Subjects::all;
+    view.clears = false;
+    draw(view);
   }
 }
 

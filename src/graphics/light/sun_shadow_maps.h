@@ -54,6 +54,9 @@ class SunShadowMaps final : public render::ShadowMethod {
   void update(const Camera& camera, const scene::SunLight& sun, std::span<const Bounds> moving,
               const render::DrawView& draw) override;
 
+  /// Draws held things over the near map; the next call or update takes them out again.
+  void cast_held(const Bounds& casters, const render::DrawView& draw) override;
+
   void bind() const override { bind(render::shadow_unit); }
   /// The maps, at a texture unit.
   void bind(GLuint unit) const;
@@ -99,6 +102,7 @@ class SunShadowMaps final : public render::ShadowMethod {
   std::vector<render::View> near_views_;  ///< of each tile
   std::optional<NearMap> near_;           ///< as it was fitted last
   std::vector<Square> drawn_over_;        ///< of the near map, by what moved
+  std::optional<Square> held_over_;       ///< of the near map, by what is held
   bool far_is_drawn_ = false;
   bool is_apart_ = false;          ///< something moves, or has moved since the near map was drawn
   render::FixedChange change_;     ///< of this frame

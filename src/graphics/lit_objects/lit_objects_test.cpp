@@ -54,9 +54,9 @@ struct Running {
 class LitObjects : public scene::ScriptTest<gl::ContextTest> {
  protected:
   LitObjects() {
-    for (const auto furnish : {script::furnish, gltf::furnish, meshes::furnish, light::furnish,
-                               action::furnish, lit_objects::furnish})
-      furnish(house_);
+    for (const auto register_room : {script::register_room, gltf::register_room, meshes::register_room,
+                                     light::register_room, action::register_room, lit_objects::register_room})
+      register_room(registries_);
     save("ground.glb", scene::ground(40));
     save("wall.glb", scene::box({-8, 2, 0}, {8, 3, 9}));
     save("ball.glb", scene::sphere({0, 0, 1}, 0.8f, 24));
@@ -73,7 +73,7 @@ class LitObjects : public scene::ScriptTest<gl::ContextTest> {
     if (!loaded) return running;
     running.scene = std::move(loaded->scene);
     running.clock = std::make_unique<action::SceneClock>(
-        house_.get<action::Processes>(), scene::LiveScene(std::move(loaded->script)), running.scene);
+        registries_.get<action::Processes>(), scene::LiveScene(std::move(loaded->script)), running.scene);
     running.warnings = running.clock->take_warnings();
     return running;
   }
@@ -406,7 +406,8 @@ TEST_F(LitObjects, SayWhatIsWrong) {
 
 /// A group may hold what is not lit so: that is said, not ignored.
 TEST_F(LitObjects, WhatOtherRoomsDrawIsNamed) {
-  house_.get<scene::NodeRegistry>().add({.type = "plant"}, [](const scene::Node&, scene::SceneBuilder&) {});
+  registries_.get<scene::NodeRegistry>().add({.type = "plant"},
+                                             [](const scene::Node&, scene::SceneBuilder&) {});
   const auto warnings_of = [&](const std::string& script) {
     const auto loaded = load(script);
     EXPECT_TRUE(loaded) << to_string(loaded.errors());

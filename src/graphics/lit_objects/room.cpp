@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "graphics/lit_objects/lighting_process.h"
 #include "room_list.h"
 #include "scene/script/attribute.h"
@@ -78,11 +78,11 @@ void build_lit(const scene::Node& node, scene::SceneBuilder& builder) {
 
 /// Adds the node litVirtualObject and the process that lights what stands in it. After the rooms whose nodes
 /// stand in it, and whose processes move things.
-void furnish(House& house) {
-  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
+void register_room(Registries& registries) {
+  scene::NodeRegistry& registry = registries.get<scene::NodeRegistry>();
   registry.add(lit_virtual_object_schema(), build_lit);
   for (const char* const child : {"object", "model", "group", "include"}) registry.allow(child, lit_type);
-  house.get<action::Processes>().add([] { return std::make_unique<LightingProcess>(); });
+  registries.get<action::Processes>().add([] { return std::make_unique<LightingProcess>(); });
 }
 
 }  // namespace parvis::lit_objects

@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "room_list.h"
 #include "scene/data/realism.h"
 #include "scene/script/attribute.h"
@@ -25,8 +25,8 @@ scene::NodeSchema realism_schema() {
 }  // namespace
 
 /// Adds the node. The lines are drawn by what shows the scene (EdgeLines).
-void furnish(House& house) {
-  house.get<scene::NodeRegistry>().add(
+void register_room(Registries& registries) {
+  registries.get<scene::NodeRegistry>().add(
       realism_schema(), [](const scene::Node& node, scene::SceneBuilder& builder) {
         builder.scene.data<scene::Realism>().level = float(node.number("level"));
       });

@@ -17,7 +17,7 @@ constexpr float max_survival = 0.95f;   // of a path at each bounce: even in a w
 constexpr float min_cosine = 1e-3f;
 
 /// Keeps a vector on the side of `normal`, where interpolated or mapped normals would turn it away.
-vec3 kept_above(vec3 vector, vec3 normal) {
+vec3 clamped_above(vec3 vector, vec3 normal) {
   const float height = glm::dot(vector, normal);
   return height >= min_cosine ? vector : glm::normalize(vector + (min_cosine - height) * normal);
 }
@@ -78,13 +78,13 @@ vec3 PathTracer::light_from(vec3 direction, vec3 radiance, float density, const 
                             const Scatter& scatter, Path& path) const {
   const float side = glm::dot(point.geometric_normal, direction);
   if (side * glm::dot(point.surface.normal, direction) <= 0.0f) return vec3(0.0f);
-  const vec3 brought =
+  const vec3 contribution =
       scatter.share(direction) * radiance *
       (point.relief.light_from(direction) * weight(density, scatter.pdf(direction), true) / density);
-  if (!(brought.x + brought.y + brought.z > 0.0f)) return vec3(0.0f);
+  if (!(contribution.x + contribution.y + contribution.z > 0.0f)) return vec3(0.0f);
   ++path.ray_count;
   const vec3 origin = point.position + std::copysign(off_surface_m, side) * point.geometric_normal;
-  return rays_.is_blocked({origin, direction}, path.passage) ? vec3(0.0f) : brought;
+  return rays_.is_blocked({origin, direction}, path.passage) ? vec3(0.0f) : contribution;
 }
 
 /// Sun and sky at a surface, each by one ray.
@@ -113,11 +113,11 @@ vec3 PathTracer::lamps_at(const ShadingPoint& point, const Scatter& scatter, Pat
     if (path.density == 0.0f) light += shading::lamp_glow(lamp, distance_m);
     const float side = glm::dot(point.geometric_normal, to_lamp);
     if (side * glm::dot(point.surface.normal, to_lamp) <= 0.0f) return;
-    const vec3 brought = scatter.share(to_lamp) * shading::lamp_irradiance(lamp, to_lamp, distance_m);
-    if (!(brought.x + brought.y + brought.z > 0.0f)) return;
+    const vec3 contribution = scatter.share(to_lamp) * shading::lamp_irradiance(lamp, to_lamp, distance_m);
+    if (!(contribution.x + contribution.y + contribution.z > 0.0f)) return;
     ++path.ray_count;
     const Ray ray = ray_to_lamp(lamp, point.position, std::copysign(1.0f, side) * point.geometric_normal);
-    if (!rays_.is_blocked(ray, path.passage)) light += brought;
+    if (!rays_.is_blocked(ray, path.passage)) light += contribution;
   });
   return light;
 }
@@ -136,12 +136,13 @@ float PathTracer::kept_of_recorded(const ShadingPoint& point, Path& path) const 
 }
 
 /// Chooses where the path goes on; false where it ends.
-bool PathTracer::goes_on(const ShadingPoint& point, const Scatter& scatter, float width_m, Path& path) const {
+bool PathTracer::extend_path(const ShadingPoint& point, const Scatter& scatter, float width_m,
+                             Path& path) const {
   const glm::vec2 choices = path.numbers.next_2d();
   std::optional<Scatter::BsdfSample> sample = scatter.sample(choices.x, path.numbers.next_2d());
   if (!sample) return false;
   const bool is_mirror = sample->pdf == 0.0f;
-  if (is_mirror) sample->direction = kept_above(sample->direction, point.geometric_normal);
+  if (is_mirror) sample->direction = clamped_above(sample->direction, point.geometric_normal);
   const float side = glm::dot(point.geometric_normal, sample->direction);
   if (side * glm::dot(point.surface.normal, sample->direction) <= 0.0f) return false;
   path.throughput *= sample->weight * point.relief.light_from(sample->direction);
@@ -171,7 +172,8 @@ bool PathTracer::passes_glass(const ShadingPoint& point, float ior, float width_
   if (!(choices.y < max_survival)) return false;
   path.throughput /= max_survival;
   const bool reflects = choices.x < reflected;
-  const vec3 after = reflects ? kept_above(glm::reflect(before, normal), point.geometric_normal) : refracted;
+  const vec3 after =
+      reflects ? clamped_above(glm::reflect(before, normal), point.geometric_normal) : refracted;
   path.ray = {point.position + (reflects ? off_surface_m : -off_surface_m) * point.geometric_normal, after};
   path.density = 0.0f;  // as a mirror's
   path.width_m = width_m;
@@ -200,7 +202,7 @@ PathTracer::Sample PathTracer::sample(const Ray& ray, float spread, SampleSequen
 
     const float width_m = path.width_m + path.spread * hit->distance_m;
     ShadingPoint point = shading_point(*hit, path.ray.direction, width_m);
-    point.surface.normal = kept_above(point.surface.normal, -path.ray.direction);
+    point.surface.normal = clamped_above(point.surface.normal, -path.ray.direction);
     if (point.kept_in_shadow < 1.0f) point.surface.emission *= kept_of_recorded(point, path);
     light += path.throughput * point.surface.emission;
     if (options_.bounces && bounce >= *options_.bounces) break;
@@ -212,7 +214,7 @@ PathTracer::Sample PathTracer::sample(const Ray& ray, float spread, SampleSequen
     const Scatter scatter(point.surface, -path.ray.direction);
     if (!lamps_.empty()) light += path.throughput * lamps_at(point, scatter, path);
     if (scatter.spreads()) light += path.throughput * light_at(point, scatter, path);
-    if (!goes_on(point, scatter, width_m, path)) break;
+    if (!extend_path(point, scatter, width_m, path)) break;
   }
   if (options_.clamp) later_light = clamped(later_light, *options_.clamp);
   return {first_light + later_light, path.meets_scene, path.ray_count};

@@ -58,7 +58,7 @@ class PathTracer {
                        const Scatter& scatter, Path& path) const;
   glm::vec3 lamps_at(const ShadingPoint& point, const Scatter& scatter, Path& path) const;
   float kept_of_recorded(const ShadingPoint& point, Path& path) const;
-  bool goes_on(const ShadingPoint& point, const Scatter& scatter, float width_m, Path& path) const;
+  bool extend_path(const ShadingPoint& point, const Scatter& scatter, float width_m, Path& path) const;
   bool passes_glass(const ShadingPoint& point, float ior, float width_m, Path& path) const;
   float weight(float density, float other_density, bool is_chosen_light) const;
 

@@ -139,13 +139,13 @@ Result<Photograph> take_photograph(const RayScene& rays, const scene::Scene& sce
     return bytes;
   };
   work.keep = [&](std::uint32_t index, std::string_view bytes) -> Status {
-    Taker taker(bytes);
-    photograph.rays += taker.take<std::uint64_t>();
-    const std::vector<float> values = taker.take_values<float>();
+    ByteReader reader(bytes);
+    photograph.rays += reader.take<std::uint64_t>();
+    const std::vector<float> values = reader.take_values<float>();
     put_tile(tile_at(index, width, height), values, photograph);
     if (checkpoint) checkpoint->keep(index, values);
     progress.advance();
-    return Done{};
+    return Ok{};
   };
   const Result<std::size_t> finished = machines::divide(options.processes, to_do, work);
   if (!finished) return finished.errors();

@@ -63,7 +63,7 @@ Status check_owner(const fs::path& file, const std::string& bytes, std::uint64_t
   if (std::memcmp(header.magic, magic, std::min(bytes.size(), sizeof magic)) != 0)
     return error("{}: is no checkpoint of a photograph and is not replaced; choose another output",
                  file.string());
-  if (bytes.size() <= sizeof header || header.key == key || replaces) return Done{};
+  if (bytes.size() <= sizeof header || header.key == key || replaces) return Ok{};
   return error(
       "{}: holds tiles of a photograph of another scene or with other settings; give the command of "
       "that one to go on with it, or --restart to lose them",

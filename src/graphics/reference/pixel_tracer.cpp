@@ -21,7 +21,7 @@ constexpr int max_blended_layers = 8;
 constexpr float drawn_error_m = 0.02f, drawn_error_px = 3.0f;  // of coarser meshes that are drawn far away
 
 /// Keeps a reflected ray above the surface, where interpolated normals would send it below.
-vec3 kept_above(vec3 direction, vec3 normal) {
+vec3 clamped_above(vec3 direction, vec3 normal) {
   const float height = glm::dot(direction, normal);
   return height > 1e-3f ? direction : glm::normalize(direction + (1e-3f - height) * normal);
 }
@@ -245,7 +245,7 @@ PixelTracer::MirrorPoint PixelTracer::mirror_in(const MirrorPixel& pixel, const 
 /// The cone of a mirror ray in this direction.
 Cone PixelTracer::mirrored_cone(const MirrorPoint& mirror, vec3 direction) {
   const ShadingPoint& point = mirror.point;
-  const vec3 away = kept_above(direction, point.geometric_normal);
+  const vec3 away = clamped_above(direction, point.geometric_normal);
   // A curved mirror turns the two sides of a cone apart by twice the angle between their normals.
   const float spread = mirror.cone.spread + 2.0f * point.curvature_per_m * mirror.cone.width_m;
   return {{point.position + 1e-3f * point.geometric_normal, away}, mirror.cone.width_m, spread};

@@ -49,11 +49,11 @@ std::string bytes_of(const TracedRow& row) {
 }
 
 TracedRow row_of(std::string_view bytes) {
-  Taker taker(bytes);
+  ByteReader reader(bytes);
   TracedRow row;
-  row.rays = taker.take<std::uint64_t>();
-  row.radiance = taker.take_values<float>();
-  row.mirror_share = taker.take_values<std::uint8_t>();
+  row.rays = reader.take<std::uint64_t>();
+  row.radiance = reader.take_values<float>();
+  row.mirror_share = reader.take_values<std::uint8_t>();
   return row;
 }
 
@@ -115,7 +115,7 @@ TracedPicture trace_picture(const RayScene& rays, const scene::Scene& scene, con
     std::ranges::copy(traced.mirror_share, picture.mirror_mask.at(0, int(row)));
     picture.rays += traced.rays;
     if (progress) progress->advance();
-    return Done{};
+    return Ok{};
   };
   work.is_interrupted = options.is_interrupted;
   machines::Tasks rows(std::size_t(window.height));

@@ -42,7 +42,7 @@ class DrawableTest : public gl::ContextTest {
   }
   void make_renderer() {
     drawables_.add(test_quads_kind(quads_));
-    drawables_.furnish(scene_);
+    drawables_.attach(scene_);
     renderer_ = fresh_renderer();
   }
   std::unique_ptr<Renderer> fresh_renderer() const {
@@ -230,7 +230,7 @@ TEST_F(DrawableTest, CubeFacesShowIt) {
 TEST_F(DrawableTest, AKindThatNothingDrawsIsAnError) {
   quads_ = {upright({0, 0, 3})};
   drawables_.add(test_quads_kind(quads_));
-  drawables_.furnish(scene_);
+  drawables_.attach(scene_);
   const Result<std::unique_ptr<Renderer>> made = Renderer::create(scene_, {}, light::sun_and_sky);
   ASSERT_FALSE(made);
   EXPECT_NE(to_string(made.errors()).find("test quads"), std::string::npos) << to_string(made.errors());

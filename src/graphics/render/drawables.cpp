@@ -17,7 +17,7 @@ const DrawableKind* Drawables::find(std::string_view name) const {
   return kind == kinds_.end() ? nullptr : &*kind;
 }
 
-void Drawables::furnish(scene::Scene& scene) const {
+void Drawables::attach(scene::Scene& scene) const {
   scene.traced_kinds.clear();
   for (const DrawableKind& kind : kinds_) scene.traced_kinds.push_back(kind.traced);
 }
@@ -41,7 +41,7 @@ Status Drawables::follow(const scene::Scene& scene, std::vector<Made>& made) con
       errors.insert(errors.end(), drawable.errors().begin(), drawable.errors().end());
   });
   if (!errors.empty()) return errors;
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis::render

@@ -34,7 +34,7 @@ class Drawables {
   const std::vector<DrawableKind>& kinds() const { return kinds_; }
 
   /// Makes renderers and ray tracers show these kinds; called for each scene that is loaded.
-  void furnish(scene::Scene& scene) const;
+  void attach(scene::Scene& scene) const;
   /// A kind's drawable in a scene.
   struct Made {
     std::string kind;

@@ -39,7 +39,7 @@ Status draw_frame(Renderer& renderer, const scene::Scene& scene, std::span<const
     end_pass("picture");
   }
   renderer.select_eye(0);
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis::render

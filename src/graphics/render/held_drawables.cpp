@@ -12,7 +12,7 @@ Status HeldDrawables::follow(const scene::Scene& held, const Drawables& kinds) {
   all_.assign(1, &*objects_);
   for (const Drawables::Made& other : others_) all_.push_back(other.drawable.get());
   for (Drawable* drawable : all_) drawable->update(held);
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis::render

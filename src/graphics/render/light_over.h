@@ -22,6 +22,7 @@ class LightOver : public LightSource {
   void draw_shadows(const Camera& camera, std::span<const Bounds> moving, const DrawView& draw) override {
     below_->draw_shadows(camera, moving, draw);
   }
+  void cast_held(const Bounds& casters, const DrawView& draw) override { below_->cast_held(casters, draw); }
   TracedSun trace_view(const Camera& camera, int width, int height) override {
     return below_->trace_view(camera, width, height);
   }

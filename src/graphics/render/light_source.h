@@ -32,6 +32,9 @@ class ShadowMethod {
   /// Draws what a viewer needs; everything when the sun has moved. `moving` bounds each dynamic caster.
   virtual void update(const Camera& camera, const scene::SunLight& sun, std::span<const Bounds> moving,
                       const DrawView& draw) = 0;
+  /// Draws things that are held into the maps of the last update: they shade each other and themselves until
+  /// the next call. `casters` bounds them.
+  virtual void cast_held(const Bounds& /*casters*/, const DrawView& /*draw*/) {}
   /// A main view of an eye is about to be drawn, of so many pixels. Its sun, where the method finds it pixel
   /// by pixel: good until the next call.
   virtual TracedSun trace_view(const Camera& /*camera*/, int /*width*/, int /*height*/) { return 0; }
@@ -69,6 +72,8 @@ class LightSource {
                      const Bounds& fixed) = 0;
   /// Draws shadow maps for a viewer.
   virtual void draw_shadows(const Camera& camera, std::span<const Bounds> moving, const DrawView& draw) = 0;
+  /// See ShadowMethod::cast_held.
+  virtual void cast_held(const Bounds& /*casters*/, const DrawView& /*draw*/) {}
   /// See ShadowMethod::trace_view.
   virtual TracedSun trace_view(const Camera& /*camera*/, int /*width*/, int /*height*/) { return 0; }
 

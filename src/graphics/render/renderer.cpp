@@ -231,7 +231,7 @@ Status Renderer::reserve_eyes(std::size_t count) {
     if (!target) return target.errors();
     targets_.push_back(*std::move(target));
   }
-  return Done{};
+  return Ok{};
 }
 
 void Renderer::prepare_main_view(const Camera& camera, int width, int height, Subjects subjects,
@@ -259,6 +259,19 @@ Status Renderer::draw_over(const scene::Scene& held, bool is_kept) {
   if (Status status = held_->follow(held, kinds_); !status) return status;
   assert(main_view_.kind == ViewKind::main && "a view has been drawn");
   if (is_kept) target().restore();
+  Bounds casters;
+  for (const Drawable* drawable : held_->all()) {
+    const Extents extents = drawable->extents();
+    casters.add(extents.fixed);
+    for (const Bounds& box : extents.moving) casters.add(box);
+  }
+  glEnable(GL_DEPTH_CLAMP);  // as in `begin`
+  light_->cast_held(casters, [this](const View& shadow_view) {
+    const Culling culling(shadow_view, nullptr);
+    for (Drawable* drawable : held_->all()) drawable->prepare(shadow_view, culling);
+    draw_prepared(shadow_view, held_->all());
+  });
+  glDisable(GL_DEPTH_CLAMP);
   View view = main_view_;
   view.clears = view.culls_hidden = false;
   view.subjects = Subjects::all;
@@ -269,7 +282,7 @@ Status Renderer::draw_over(const scene::Scene& held, bool is_kept) {
   draw_prepared(view, held_->all());
   traced_sun_ = traced_sun;
   target().resolve(exposure_);
-  return Done{};
+  return Ok{};
 }
 
 ObjectPicture Renderer::pick(const Camera& camera, int width, int height, bool culls_hidden) {

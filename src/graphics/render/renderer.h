@@ -28,7 +28,7 @@ class HeldDrawables;
 class Renderer {
  public:
   /// Needs a current OpenGL 4.5 context for as long as it lives. Uploads the scene and what rooms draw by
-  /// themselves in it: `drawables` has furnished it. Fails only if a shader does, or if a kind of
+  /// themselves in it: `drawables` is attached to it. Fails only if a shader does, or if a kind of
   /// Scene::traced_kinds is not among the drawables.
   static Result<std::unique_ptr<Renderer>> create(const scene::Scene& scene, const Drawables& drawables,
                                                   const MakeLight& make_light);
@@ -64,9 +64,9 @@ class Renderer {
   /// Keeps the main view as drawn, for `draw_over`.
   void keep_main_view() { target().keep(); }
   /// Draws the things of another, small scene over the main view that was kept, or over the one that has just
-  /// been drawn: hidden where it hides them, in its light, without casting shadows. The objects of `held` are
-  /// those of the last call, and new ones behind them. Fails only if a shader does; the view is as it was
-  /// then.
+  /// been drawn: hidden where it hides them, in its light, casting shadows on each other alone. The objects
+  /// of `held` are those of the last call, and new ones behind them. Fails only if a shader does; the view is
+  /// as it was then.
   Status draw_over(const scene::Scene& held, bool is_kept);
   /// Draws a view for another room, for example a cube face: linear radiance, with sky.
   void draw_view(const View& view);

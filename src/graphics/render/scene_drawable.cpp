@@ -76,7 +76,7 @@ Result<SceneDrawable> SceneDrawable::create(const scene::Scene& scene) {
     if (!made) return made.errors();
     program = *std::move(made);
     assign_bindings(program);
-    return Done{};
+    return Ok{};
   };
   for (const Status& status :
        {make("graphics/render/depth.vert", "graphics/render/depth.frag", programs.depth),
@@ -109,7 +109,7 @@ Status SceneDrawable::set_reflection(SurfaceShader* shader) {
     shader->programs_ = *std::move(made);
   }
   reflection_ = shader;
-  return Done{};
+  return Ok{};
 }
 
 /// The room above shades mirrors in the main view alone: in others they show the sky, or what a room's own

@@ -26,12 +26,12 @@ gl::Defines defines_of(std::uint16_t features) {
 }
 
 Status link(gl::Program& program, const SurfaceSource& source, const gl::Defines& defines) {
-  if (program.name()) return Done{};
+  if (program.name()) return Ok{};
   Result<gl::Program> linked = gl::Program::create(source.vertex, source.fragment, defines, source.includes);
   if (!linked) return linked.errors();
   program = *std::move(linked);
   assign_bindings(program);
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace
@@ -52,14 +52,14 @@ Result<SurfacePrograms> SurfacePrograms::create(const SurfaceSource& source,
 
 Status SurfacePrograms::link_of(std::uint16_t features, bool discards) const {
   gl::Program& program = (discards ? one_sample_ : programs_)[features];
-  if (program.name()) return Done{};
+  if (program.name()) return Ok{};
   gl::Defines defines = defines_of(features);
   defines.insert(defines.end(), source_.defines.begin(), source_.defines.end());
   defines.insert(defines.end(), source_.mesh_defines.begin(), source_.mesh_defines.end());
   if (discards) defines.emplace_back("ONE_SAMPLE", "");
   if (Status status = link(program, source_, defines); !status) return status;
   for (const auto& [uniform, value] : uniforms_) program.set(uniform.c_str(), value);
-  return Done{};
+  return Ok{};
 }
 
 /// A material has come that has other features than those before it.

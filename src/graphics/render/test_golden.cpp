@@ -85,7 +85,7 @@ Status matches_golden(const Image8& actual, const std::string& name, const Golde
   if (difference.maximum <= tolerance.max_difference &&
       difference.failing_fraction <= tolerance.failing_fraction &&
       difference.mean <= tolerance.mean_difference)
-    return Done{};
+    return Ok{};
   return failure(
       name,
       fmt::format("differs by {} at most (allowed {}), {:.4f} of the pixels fail (allowed {}), mean {:.4f} "

@@ -16,7 +16,7 @@ Result<ViewPrograms> ViewPrograms::create(DrawableShader shader) {
     if (!linked) return linked.errors();
     program = *std::move(linked);
     assign_bindings(program);
-    return Done{};
+    return Ok{};
   };
   for (const Status& status : {link(programs.many_samples_, {}), link(programs.one_sample_, {"ONE_SAMPLE"}),
                                link(programs.depth_, {"ONE_SAMPLE", "WRITES_DEPTH"}),

@@ -25,6 +25,9 @@ class ChosenShadows final : public render::ShadowMethod {
   void renew(const render::FixedChange& change, const Bounds& fixed) override;
   void update(const Camera& camera, const scene::SunLight& sun, std::span<const Bounds> moving,
               const render::DrawView& draw) override;
+  void cast_held(const Bounds& casters, const render::DrawView& draw) override {
+    maps_->cast_held(casters, draw);
+  }
   render::TracedSun trace_view(const Camera& camera, int width, int height) override;
   void bind() const override { maps_->bind(); }
   const shading::ShadowMaps& maps() const override { return maps_->maps(); }
@@ -65,6 +68,9 @@ class ChosenLight final : public render::LightSource {
   void draw_shadows(const Camera& camera, std::span<const Bounds> moving,
                     const render::DrawView& draw) override {
     light_->draw_shadows(camera, moving, draw);
+  }
+  void cast_held(const Bounds& casters, const render::DrawView& draw) override {
+    light_->cast_held(casters, draw);
   }
   render::TracedSun trace_view(const Camera& camera, int width, int height) override {
     return light_->trace_view(camera, width, height);

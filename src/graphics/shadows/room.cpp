@@ -1,10 +1,10 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "graphics/shadows/chosen_light.h"
 #include "room_list.h"
 
 namespace parvis::shadows {
 
 /// Replaces the light in render::Lights.
-void furnish(House& house) { house.get<render::Lights>().make = ChosenLight::create; }
+void register_room(Registries& registries) { registries.get<render::Lights>().make = ChosenLight::create; }
 
 }  // namespace parvis::shadows

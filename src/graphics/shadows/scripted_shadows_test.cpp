@@ -25,9 +25,9 @@ constexpr int width = 256, height = 144;
 class ScriptedShadows : public scene::ScriptTest<gl::ContextTest> {
  protected:
   ScriptedShadows() {
-    for (const auto furnish :
-         {script::furnish, gltf::furnish, meshes::furnish, light::furnish, shadows::furnish})
-      furnish(house_);
+    for (const auto register_room : {script::register_room, gltf::register_room, meshes::register_room,
+                                     light::register_room, shadows::register_room})
+      register_room(registries_);
     scene::write_grey(folder_.path() / "ground.glb", scene::ground(40));
     scene::write_grey(folder_.path() / "table.glb", scene::box({-2, -2, 0}, {2, 2, 1}));
     scene::write_grey(folder_.path() / "roof.glb", scene::box({-4, -4, 12}, {4, 4, 12.2f}));
@@ -43,7 +43,7 @@ class ScriptedShadows : public scene::ScriptTest<gl::ContextTest> {
            shadow_map + ")\n";
   }
   std::unique_ptr<render::Renderer> renderer_of(const scene::Scene& scene) const {
-    return render::renderer_of(scene, house_.get<render::Lights>().make);
+    return render::renderer_of(scene, registries_.get<render::Lights>().make);
   }
   ImageF drawn(render::Renderer& renderer, const scene::Scene& scene) const {
     EXPECT_TRUE(render::draw_frame(renderer, scene, {camera_, width, height}));

@@ -242,8 +242,8 @@ TEST_F(ChosenLightTest, SpotLightsAndReceiversAgreeWithTheRayTracer) {
 class ShadowMapNode : public scene::ScriptTest<> {
  protected:
   ShadowMapNode() {
-    script::furnish(house_);
-    light::furnish(house_);
+    script::register_room(registries_);
+    light::register_room(registries_);
   }
 };
 
@@ -285,7 +285,7 @@ TEST_F(ShadowMapNode, TakesTheMessagesOfTheThesisAndGivesTheSunBack) {
 
 TEST_F(ShadowMapNode, ChoosesCastersAndReceiversByTheirGroups) {
   scene::NodeSchema stone{.type = "object", .attributes = {{.name = "name"}}};
-  house_.get<scene::NodeRegistry>().add(stone, [](const scene::Node&, scene::SceneBuilder& builder) {
+  registries_.get<scene::NodeRegistry>().add(stone, [](const scene::Node&, scene::SceneBuilder& builder) {
     scene::Object object;
     object.model = scene::model_of(scene::ground(1), scene::matt(glm::vec3(0.5f)));
     builder.add(object);

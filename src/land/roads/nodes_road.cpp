@@ -2,9 +2,9 @@
 // built.
 #include <algorithm>
 
-#include "base/house.h"
 #include "base/known_names.h"
 #include "base/memory_budget.h"
+#include "base/registries.h"
 #include "land/heights/open_rooms.h"
 #include "land/roads/paving.h"
 #include "land/roads/road_builder.h"
@@ -179,9 +179,9 @@ void finish_roads(SceneBuilder& builder) {
 }  // namespace parvis::scene
 
 /// Adds the node types, and the step that makes lanes of roads.
-void parvis::roads::furnish(House& house) {
+void parvis::roads::register_room(Registries& registries) {
   using namespace parvis::scene;
-  NodeRegistry& registry = house.get<NodeRegistry>();
+  NodeRegistry& registry = registries.get<NodeRegistry>();
   registry.add(road_schema(), build_road);
   registry.add(streets_schema(), build_streets);
   registry.add(paving_schema(), build_paving);

@@ -287,7 +287,7 @@ Status check_size(const RoadNetwork& network, std::span<const Road> roads, std::
         "a crossing; leave some out",
         name_of(roads[road], road), max_arms));
   if (!errors.empty()) return errors;
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

@@ -250,7 +250,7 @@ Status shape_terrain(Scene& scene, std::span<const Road> roads) {
     for (Object& object : scene.objects)
       if (has_ground(scene, object)) shape(object, terrain, works);
   }
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis::scene

@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "formats/meshes/model_assembly.h"
 #include "formats/meshes/model_node.h"
 #include "life/crowd/crowd_process.h"
@@ -68,12 +68,12 @@ void build_crowd(const Node& node, SceneBuilder& builder, const formats::Readers
 }  // namespace
 
 /// Adds the node type and the process.
-void furnish(House& house) {
-  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
-  const formats::Readers& readers = house.get<formats::Readers>();
+void register_room(Registries& registries) {
+  scene::NodeRegistry& registry = registries.get<scene::NodeRegistry>();
+  const formats::Readers& readers = registries.get<formats::Readers>();
   registry.add(crowd_schema(),
                [&readers](const Node& node, SceneBuilder& builder) { build_crowd(node, builder, readers); });
-  house.get<action::Processes>().add([] { return std::make_unique<CrowdProcess>(); });
+  registries.get<action::Processes>().add([] { return std::make_unique<CrowdProcess>(); });
   registry.allow("model", "crowd");
   registry.allow(scene::include_type, "crowd");
 }

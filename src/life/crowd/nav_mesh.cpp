@@ -26,7 +26,7 @@ constexpr float any_height_m = 1000.0f;
 
 constexpr unsigned char floor_area = 1, road_area = 2, crossing_area = 3;
 
-// Recast's y is up: the house's (x, y, z) is (x, z, -y).
+// Recast's y is up: Parvis's (x, y, z) is (x, z, -y).
 std::array<float, 3> to_recast(glm::vec3 p) { return {p.x, p.z, -p.y}; }
 glm::vec3 to_house(const float* p) { return {p[0], -p[2], p[1]}; }
 

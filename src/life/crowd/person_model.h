@@ -9,7 +9,7 @@
 
 namespace parvis::crowd {
 
-/// A person's model in the house's frame: z up, metres, standing on z = 0 at the origin, looking along +x.
+/// A person's model in Parvis's frame: z up, metres, standing on z = 0 at the origin, looking along +x.
 struct PersonModel {
   std::shared_ptr<const scene::Model> model;
   int animation = 0;     ///< of the model, a cycle of two steps on the spot

@@ -275,9 +275,10 @@ class PersonNodeTest : public scene::ScriptTest<> {
  protected:
   PersonNodeTest()
       : ScriptTest([] {
-          House house;
-          script::furnish(house), action::furnish(house), people::furnish(house);
-          return house;
+          Registries registries;
+          script::register_room(registries), action::register_room(registries),
+              people::register_room(registries);
+          return registries;
         }()) {}
 };
 

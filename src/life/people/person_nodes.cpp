@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "life/people/person_model.h"
 #include "room_list.h"
 #include "scene/data/object_animation.h"
@@ -66,8 +66,8 @@ void build_person(const Node& node, SceneBuilder& builder) {
 
 }  // namespace
 
-void furnish(House& house) {
-  house.get<scene::NodeRegistry>().add(
+void register_room(Registries& registries) {
+  registries.get<scene::NodeRegistry>().add(
       person_schema(), [](const Node& node, SceneBuilder& builder) { build_person(node, builder); });
 }
 

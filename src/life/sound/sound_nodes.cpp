@@ -1,5 +1,5 @@
 // sound: a source that is heard.
-#include "base/house.h"
+#include "base/registries.h"
 #include "life/sound/scene_sounds.h"
 #include "room_list.h"
 #include "scene/script/attribute.h"
@@ -44,6 +44,8 @@ void build_sound(const scene::Node& node, scene::SceneBuilder& builder) {
 
 }  // namespace
 
-void furnish(House& house) { house.get<scene::NodeRegistry>().add(sound_schema(), build_sound); }
+void register_room(Registries& registries) {
+  registries.get<scene::NodeRegistry>().add(sound_schema(), build_sound);
+}
 
 }  // namespace parvis::sound

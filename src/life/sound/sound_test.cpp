@@ -146,9 +146,9 @@ class SoundNodeTest : public scene::ScriptTest<> {
  protected:
   SoundNodeTest()
       : ScriptTest([] {
-          House house;
-          script::furnish(house), sound::furnish(house);
-          return house;
+          Registries registries;
+          script::register_room(registries), sound::register_room(registries);
+          return registries;
         }()) {}
 };
 

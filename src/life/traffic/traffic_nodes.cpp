@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "formats/meshes/model_assembly.h"
 #include "formats/meshes/model_node.h"
 #include "life/traffic/demand.h"
@@ -76,13 +76,13 @@ void build_traffic(const Node& node, SceneBuilder& builder, const formats::Reade
 }  // namespace
 
 /// Adds the node type and the process.
-void furnish(House& house) {
-  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
-  const formats::Readers& readers = house.get<formats::Readers>();
+void register_room(Registries& registries) {
+  scene::NodeRegistry& registry = registries.get<scene::NodeRegistry>();
+  const formats::Readers& readers = registries.get<formats::Readers>();
   registry.add(traffic_schema(), [&readers](const Node& node, SceneBuilder& builder) {
     build_traffic(node, builder, readers);
   });
-  house.get<action::Processes>().add([] { return std::make_unique<TrafficProcess>(); });
+  registries.get<action::Processes>().add([] { return std::make_unique<TrafficProcess>(); });
   registry.allow("model", "traffic");
   registry.allow(scene::include_type, "traffic");
 }

@@ -1,7 +1,7 @@
 // tram, tramStop: a line with its track, stops and trams.
 #include <algorithm>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "life/tram/track.h"
 #include "life/tram/tram_process.h"
 #include "room_list.h"
@@ -185,11 +185,11 @@ void build_tram(const Node& node, SceneBuilder& builder) {
 
 }  // namespace
 
-void furnish(House& house) {
-  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
+void register_room(Registries& registries) {
+  scene::NodeRegistry& registry = registries.get<scene::NodeRegistry>();
   registry.add(tram_schema(), [](const Node& node, SceneBuilder& builder) { build_tram(node, builder); });
   registry.add_part(stop_schema());
-  house.get<action::Processes>().add([] { return std::make_unique<TramProcess>(); });
+  registries.get<action::Processes>().add([] { return std::make_unique<TramProcess>(); });
 }
 
 }  // namespace parvis::tram

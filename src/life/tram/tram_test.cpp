@@ -170,9 +170,10 @@ class TramNodeTest : public scene::ScriptTest<> {
  protected:
   TramNodeTest()
       : ScriptTest([] {
-          House house;
-          script::furnish(house), action::furnish(house), tram::furnish(house);
-          return house;
+          Registries registries;
+          script::register_room(registries), action::register_room(registries),
+              tram::register_room(registries);
+          return registries;
         }()) {}
 };
 

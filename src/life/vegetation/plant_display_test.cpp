@@ -33,7 +33,7 @@ class PlantDisplay : public gl::ContextTest {
     scene_.sun.direction_to_sun = glm::normalize(glm::vec3(0.6f, -0.5f, 0.7f));
     add(scene_, model_of(ground(60), matt(glm::vec3(0.5f))));
     drawables_.add(scene_plants_kind());
-    drawables_.furnish(scene_);
+    drawables_.attach(scene_);
   }
   void look_from(float distance_m) {
     camera_.world_from_camera = look_at({0, -distance_m, 1.7f}, {0, 0, 1.6f});
@@ -41,7 +41,7 @@ class PlantDisplay : public gl::ContextTest {
   }
   void plant(const char* kind, glm::vec3 foot, std::uint64_t seed = 1) {
     const PlantKind* found = find_kind(kind);
-    auto shape = shared_plant(scene_.data<PlantShelf>(), {found, found->height_m, 2.0f, seed});
+    auto shape = shared_plant(scene_.data<PlantCache>(), {found, found->height_m, 2.0f, seed});
     ASSERT_TRUE(shape) << to_string(shape.errors());
     scene_.data<ScenePlants>().add({*shape, glm::translate(glm::mat4(1.0f), foot), true},
                                    int(scene_plants(scene_).size()));

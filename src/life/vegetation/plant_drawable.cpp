@@ -90,7 +90,7 @@ class PlantDrawable final : public render::Drawable {
       Result<ViewPrograms> linked = ViewPrograms::create({vertex, surface, std::move(defines)});
       if (!linked) return linked.errors();
       programs = *std::move(linked);
-      return Done{};
+      return Ok{};
     };
     constexpr const char *leaf = "life/vegetation/leaf_vertex.glsl",
                          *wood = "life/vegetation/wood_vertex.glsl",

@@ -1,5 +1,5 @@
 // plant: a grown plant in a scene.
-#include "base/house.h"
+#include "base/registries.h"
 #include "life/vegetation/plant_drawable.h"
 #include "life/vegetation/scene_plant.h"
 #include "room_list.h"
@@ -55,7 +55,7 @@ void build_plant(const Node& node, SceneBuilder& builder) {
   if (scene_plants(builder.scene).size() >= max_plants)
     return builder.fail(
         error_at(node.where_of("kind"), "{} plants are the most that one scene has", max_plants));
-  Result<std::shared_ptr<const PlantShape>> shape = shared_plant(builder.scene.data<PlantShelf>(), recipe);
+  Result<std::shared_ptr<const PlantShape>> shape = shared_plant(builder.scene.data<PlantCache>(), recipe);
   if (!shape) return builder.fail(shape.errors(), node.where_of("height"));
   ScenePlant plant;
   plant.shape = *std::move(shape);
@@ -66,10 +66,10 @@ void build_plant(const Node& node, SceneBuilder& builder) {
 
 }  // namespace
 
-/// How grown plants join the house: the node `plant`, and what draws and traces it.
-void furnish(House& house) {
-  house.get<scene::NodeRegistry>().add(plant_schema(), build_plant);
-  house.get<render::Drawables>().add(scene_plants_kind());
+/// How grown plants join Parvis: the node `plant`, and what draws and traces it.
+void register_room(Registries& registries) {
+  registries.get<scene::NodeRegistry>().add(plant_schema(), build_plant);
+  registries.get<render::Drawables>().add(scene_plants_kind());
 }
 
 }  // namespace parvis::vegetation

@@ -12,7 +12,7 @@ namespace {
 
 class PlantNode : public scene::ScriptTest<> {
  protected:
-  PlantNode() { script::furnish(house_), furnish(house_); }
+  PlantNode() { script::register_room(registries_), register_room(registries_); }
 };
 
 TEST_F(PlantNode, EqualPlantsShareTheirMemory) {

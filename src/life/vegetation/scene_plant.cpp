@@ -10,21 +10,21 @@
 namespace parvis::vegetation {
 namespace {
 
-constexpr std::size_t max_kept = 64;  // beyond it, plants that nobody shows are dropped from the shelf
+constexpr std::size_t max_kept = 64;  // beyond it, plants that nobody shows are dropped from the cache
 
 Status check(const PlantRecipe& recipe) {
   const PlantKind& kind = *recipe.kind;
   if (!(recipe.height_m >= kind.min_height_m && recipe.height_m <= kind.max_height_m))
     return error("a plant of kind \"{}\" is between {} and {} m high, not {} m", kind.name, kind.min_height_m,
                  kind.max_height_m, recipe.height_m);
-  if (kind.habit == Habit::tree) return Done{};
+  if (kind.habit == Habit::tree) return Ok{};
   if (!(recipe.length_m > 0.0f && std::isfinite(recipe.length_m)))
     return error("a plant of kind \"{}\" has a length above 0 m, not {} m", kind.name, recipe.length_m);
   if (leaf_count(recipe) > max_leaves)
     return error(
         "{} m of \"{}\" have {} leaves; {} is the most for one plant. Set several shorter ones side by side",
         recipe.length_m, kind.name, leaf_count(recipe), max_leaves);
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace
@@ -39,24 +39,24 @@ PlantTriangles plant_triangles(const scene::Scene& scene) {
   return triangles;
 }
 
-Result<std::shared_ptr<const PlantShape>> shared_plant(PlantShelf& shelf, const PlantRecipe& recipe) {
+Result<std::shared_ptr<const PlantShape>> shared_plant(PlantCache& cache, const PlantRecipe& recipe) {
   if (const Status status = check(recipe); !status) return status.errors();
   PlantRecipe grown = recipe;
   if (recipe.kind->habit == Habit::tree) grown.length_m = 0.0f;  // that trees have none of
   const std::string key =
       fmt::format("{} {} {} {}", grown.kind->name, grown.height_m, grown.length_m, grown.seed);
-  if (const auto found = shelf.shapes.find(key); found != shelf.shapes.end()) return found->second;
+  if (const auto found = cache.shapes.find(key); found != cache.shapes.end()) return found->second;
   const std::string what = fmt::format(
       "another plant of kind \"{}\" (plants of the same kind, height and seed share their memory)",
       recipe.kind->name);
-  if (shelf.shapes.size() >= max_kept)
-    std::erase_if(shelf.shapes, [](const auto& kept) { return kept.second.use_count() == 1; });
+  if (cache.shapes.size() >= max_kept)
+    std::erase_if(cache.shapes, [](const auto& kept) { return kept.second.use_count() == 1; });
   std::uint64_t bytes = estimated_bytes(grown);  // to be drawn and traced: later, and all together
-  for (const auto& [name, kept] : shelf.shapes)
+  for (const auto& [name, kept] : cache.shapes)
     if (kept.use_count() > 1) bytes += estimated_bytes(kept->recipe);
   if (const Status enough = check_memory(bytes, what); !enough) return enough.errors();
   auto shape = std::make_shared<const PlantShape>(grow_plant(grown));
-  shelf.shapes.emplace(key, shape);
+  cache.shapes.emplace(key, shape);
   return std::shared_ptr<const PlantShape>(std::move(shape));
 }
 

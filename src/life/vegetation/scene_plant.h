@@ -60,8 +60,8 @@ struct PlantDetail {
 };
 
 /// Plants that have been grown, by recipe: a node that moves does not grow its plant again.
-struct PlantShelf {
-  static constexpr std::string_view name = "vegetation.shelf";
+struct PlantCache {
+  static constexpr std::string_view name = "vegetation.cache";
   static constexpr scene::DataRole role = scene::DataRole::settings;
 
   std::map<std::string, std::shared_ptr<const PlantShape>> shapes;
@@ -74,6 +74,6 @@ struct PlantShelf {
 
 /// The plant of a recipe, grown when it is first asked for. Errors: a height or length out of bounds, too
 /// many leaves for one plant, not enough memory; what to do is in the message.
-Result<std::shared_ptr<const PlantShape>> shared_plant(PlantShelf& shelf, const PlantRecipe& recipe);
+Result<std::shared_ptr<const PlantShape>> shared_plant(PlantCache& cache, const PlantRecipe& recipe);
 
 }  // namespace parvis::vegetation

@@ -11,7 +11,7 @@
 #include "places/car_bodies/car_copy.h"
 #include "places/car_bodies/car_script.h"
 #include "places/car_bodies/test_car.h"
-#include "scene/script/test_house.h"
+#include "scene/script/test_registries.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::car_bodies {
@@ -21,11 +21,12 @@ using namespace test;
 
 class CarProposal : public scene::ScriptTest<> {
  protected:
-  CarProposal() : ScriptTest(scene::test_house()) {}
+  CarProposal() : ScriptTest(scene::test_registries()) {}
 
   scene::Model read(const std::string& file) {
     Errors warnings;
-    Result<scene::Model> model = house_.get<formats::Readers>().read(folder_.path() / file, {}, warnings);
+    Result<scene::Model> model =
+        registries_.get<formats::Readers>().read(folder_.path() / file, {}, warnings);
     EXPECT_TRUE(model) << (model ? "" : to_string(model.errors()));
     return model ? *std::move(model) : scene::Model();
   }
@@ -378,7 +379,7 @@ TEST_F(CarProposal, OfTheBodyAmongTheScenesIsTheOneBesideIt) {
   const std::filesystem::path folder = source_folder() / "scenes";
   Errors warnings;
   const Result<scene::Model> body =
-      house_.get<formats::Readers>().read(folder / "bare_saloon.glb", {}, warnings);
+      registries_.get<formats::Readers>().read(folder / "bare_saloon.glb", {}, warnings);
   ASSERT_TRUE(body) << to_string(body.errors());
   EXPECT_TRUE(warnings.empty()) << to_string(warnings);
   const Result<std::string> script = car_script(*body, "bare_saloon.glb"),

@@ -6,8 +6,8 @@
 #include "base/test_data.h"
 #include "base/test_folder.h"
 #include "graphics/render/fixed_parts.h"
-#include "house/rooms.h"
 #include "places/dressing/street_view.h"
+#include "rooms/rooms.h"
 #include "scene/data/surroundings.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/scene_loader.h"
@@ -17,7 +17,7 @@ namespace {
 
 using scene::Model;
 
-const formats::Readers& readers() { return house::all_rooms().get<formats::Readers>(); }
+const formats::Readers& readers() { return rooms::all_registries().get<formats::Readers>(); }
 
 void add_part(Model& model, const std::string& name, Mesh mesh, glm::vec3 colour = glm::vec3(0.5f)) {
   scene::Material material = scene::matt(colour);
@@ -233,7 +233,7 @@ TEST(BareFile, LoadsWithoutAWarningAndHasGroundToTheHorizon) {
   const Result<std::string> script = read_file(written->script);
   ASSERT_TRUE(script);
   EXPECT_EQ(script->find("latitude=48, longitude=10,"), std::string::npos) << "the map lies elsewhere";
-  const Result<scene::LoadedScene> loaded = scene::load_scene(written->script, house::node_registry());
+  const Result<scene::LoadedScene> loaded = scene::load_scene(written->script, rooms::node_registry());
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   EXPECT_EQ(to_string(loaded->warnings), "");
   const scene::Scene& scene = loaded->scene;
@@ -256,7 +256,7 @@ scene::Scene crossroads_with(const std::string& rest) {
   const auto script =
       folder.write("a.xp", "model(name=\"town\", file=\"crossroads.osm\") " + rest +
                                "\ncamera(name=\"c\", position=\"0 -9 2\", target=\"0 0 1\")\n");
-  Result<scene::LoadedScene> loaded = scene::load_scene(script, house::node_registry());
+  Result<scene::LoadedScene> loaded = scene::load_scene(script, rooms::node_registry());
   EXPECT_TRUE(loaded) << to_string(loaded.errors());
   return loaded ? std::move(loaded->scene) : scene::Scene();
 }

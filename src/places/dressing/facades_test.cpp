@@ -12,9 +12,9 @@
 #include "base/random.h"
 #include "base/test_data.h"
 #include "formats/readers/readers.h"
-#include "house/rooms.h"
 #include "places/dressing/brick_texture.h"
 #include "places/dressing/test_walls.h"
+#include "rooms/rooms.h"
 #include "scene/data/model_parts.h"
 
 namespace parvis::dressing {
@@ -103,7 +103,7 @@ TEST(Facades, NoWallIsLostOrDoubled) {
     const auto file = shared_data(name);
     if (!file) GTEST_SKIP() << name;
     Errors warnings;
-    Result<scene::Model> city = house::all_rooms().get<formats::Readers>().read(*file, {}, warnings);
+    Result<scene::Model> city = rooms::all_registries().get<formats::Readers>().read(*file, {}, warnings);
     ASSERT_TRUE(city) << to_string(city.errors());
     const double walls = area_of(*city, "WallSurface");
     add_facades(*city, "WallSurface");

@@ -11,10 +11,10 @@
 
 #include "base/test_data.h"
 #include "formats/readers/readers.h"
-#include "house/rooms.h"
 #include "places/dressing/brick_texture.h"
 #include "places/dressing/facades.h"
 #include "places/dressing/test_walls.h"
+#include "rooms/rooms.h"
 
 namespace parvis::dressing {
 namespace {
@@ -164,8 +164,8 @@ TEST(RoundWalls, ChimneysAndSilosHaveNoDoors) {
 
 TEST(RoundWalls, OfTheMarketHaveDoorsAndWindows) {
   Errors warnings;
-  Result<scene::Model> market =
-      house::all_rooms().get<formats::Readers>().read(source_folder() / "scenes/market.osm", {}, warnings);
+  Result<scene::Model> market = rooms::all_registries().get<formats::Readers>().read(
+      source_folder() / "scenes/market.osm", {}, warnings);
   ASSERT_TRUE(market) << to_string(market.errors());
   EXPECT_TRUE(warnings.empty()) << to_string(warnings);
   std::set<std::string> names;

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
-#include "house/rooms.h"
 #include "life/vegetation/scene_plant.h"
 #include "places/kerbside/map_trees.h"
+#include "rooms/rooms.h"
 #include "scene/script/live_scene.h"
 #include "scene/script/test_script.h"
 
@@ -25,7 +25,7 @@ constexpr const char* streets =
 
 class Kerbside : public scene::ScriptTest<> {
  protected:
-  Kerbside() : ScriptTest(house::all_rooms()) {}
+  Kerbside() : ScriptTest(rooms::all_registries()) {}
   scene::Scene load(const std::string& text) const { return scene_of(streets + text); }
   std::string errors_of(const std::string& text) const { return ScriptTest::errors_of(streets + text); }
   static std::vector<scene::Object> called(const scene::Scene& scene, const std::string& name) {

@@ -7,10 +7,10 @@
 
 #include "base/bounds.h"
 #include "base/content_hash.h"
-#include "base/house.h"
 #include "base/known_names.h"
 #include "base/memory_budget.h"
 #include "base/random.h"
+#include "base/registries.h"
 #include "life/vegetation/scene_plant.h"
 #include "places/kerbside/kerb_places.h"
 #include "places/kerbside/nodes_map_trees.h"
@@ -236,7 +236,7 @@ void plant_series(const PlannedSeries& planned, int maker, FreeGround& ground, s
   for (const KerbPlace& place : take_kerb_places(builder.scene.roads, planned.series, ground)) {
     vegetation::PlantRecipe recipe = planned.plant;
     recipe.seed += std::uint64_t(random.index(shapes));
-    auto shape = vegetation::shared_plant(builder.scene.data<vegetation::PlantShelf>(), recipe);
+    auto shape = vegetation::shared_plant(builder.scene.data<vegetation::PlantCache>(), recipe);
     if (!shape) return builder.fail(shape.errors(), planned.where_of);
     if (before + plants.size() >= max_objects)
       return builder.fail(
@@ -329,8 +329,8 @@ void show_or_hide(scene::SceneBuilder& builder) {
 
 /// Adds the node types of this room and their finish step, which comes after that of roads: things stand
 /// beside lanes that are laid.
-void furnish(House& house) {
-  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
+void register_room(Registries& registries) {
+  scene::NodeRegistry& registry = registries.get<scene::NodeRegistry>();
   registry.add(with_circle(street_trees_schema()), build_street_trees);
   registry.add(with_circle(parked_cars_schema()), build_parked_cars);
   registry.add(with_circle(street_furniture_schema()), build_street_furniture);

@@ -110,7 +110,7 @@ void plant_trees(const PlannedTrees& planned, const std::vector<MapTree>& trees,
     recipe.height_m = std::clamp(height_step_m * std::round(height_m / height_step_m),
                                  recipe.kind->min_height_m, recipe.kind->max_height_m);
     recipe.seed = synthesis::place_seed + std::uint64_t(random.index(shapes_per_kind));
-    auto shape = vegetation::shared_plant(builder.scene.data<vegetation::PlantShelf>(), recipe);
+    auto shape = vegetation::shared_plant(builder.scene.data<vegetation::PlantCache>(), recipe);
     if (!shape) return builder.fail(shape.errors(), planned.where_of);
     const glm::mat4 placed = glm::rotate(glm::translate(world_from_model, tree.foot),
                                          random.uniform(0.0f, 6.2831853f), {0.0f, 0.0f, 1.0f});

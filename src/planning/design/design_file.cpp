@@ -163,7 +163,7 @@ Status read_json(const std::string& text, const std::string& file, Session& sess
     };
     if (!entry.is_object()) return wrong("expected an object");
     const std::string kind = text_in(entry, "kind"), name = text_in(entry, "name");
-    Status status = Done{};
+    Status status = Ok{};
     if (kind == "ground") {
       const auto outline = points_in(entry, "outline");
       if (!outline) return wrong("a ground surface has an \"outline\" of corners [x, y, z] in metres");
@@ -195,7 +195,7 @@ Status read_json(const std::string& text, const std::string& file, Session& sess
     }
     if (!status) return wrong(status.errors().front().message);
   }
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis::design

@@ -111,7 +111,7 @@ Status check_size(const Node& node, const Kind& kind, const glm::dvec3& size) {
     if (node.gives(attributes[axis]) && (size[axis] < kind.min_m[axis] || size[axis] > kind.max_m[axis]))
       return error_at(node.where_of(attributes[axis]), "a {} is {:g} to {:g} m {}, not {:g} m", kind.name,
                       kind.min_m[axis], kind.max_m[axis], axes[axis], size[axis]);
-  return Done{};
+  return Ok{};
 }
 
 /// The seed of one of five shapes of a plant, by its name.
@@ -132,7 +132,7 @@ void add_plant(const Node& node, const Kind& kind, const glm::dvec3& size, const
   recipe.height_m = has_bed ? recipe.kind->height_m : float(size.z);
   recipe.length_m = has_bed ? float(size.x) - 0.24f : float(size.x);
   recipe.seed = seed_of(node.text("name"));
-  auto shape = vegetation::shared_plant(builder.scene.data<vegetation::PlantShelf>(), recipe);
+  auto shape = vegetation::shared_plant(builder.scene.data<vegetation::PlantCache>(), recipe);
   if (!shape) return builder.fail(shape.errors(), node.where);
   vegetation::ScenePlant plant;
   plant.shape = *std::move(shape);
@@ -221,14 +221,14 @@ void find_designs(const scene::Nodes& nodes, std::vector<const Node*>& found) {
 
 }  // namespace
 
-void add_design_nodes(House& house) {
-  auto& registry = house.get<scene::NodeRegistry>();
+void add_design_nodes(Registries& registries) {
+  auto& registry = registries.get<scene::NodeRegistry>();
   add_kind_node(registry);
   registry.add(design_schema(), [](const Node& node, SceneBuilder& builder) {
     builder.build(node.children, glm::mat4(1.0f), node.flag("visible"));
   });
   registry.add(placed_schema(),
-               [readers = &house.get<formats::Readers>()](const Node& node, SceneBuilder& builder) {
+               [readers = &registries.get<formats::Readers>()](const Node& node, SceneBuilder& builder) {
                  build_placed(node, builder, *readers);
                });
   registry.allow(view_type, design_type);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "planning/design/kind.h"
 #include "planning/design/measurement.h"
 #include "planning/design/placed_object.h"
@@ -14,9 +14,9 @@ namespace parvis::design {
 inline constexpr const char *design_type = "design", *placed_type = "placed", *surface_type = "surface",
                             *measured_type = "measured", *kind_type = "kind", *view_type = "camera";
 
-/// Registers design, placed, surface and measured. `house` outlives the scenes: its readers read models of
-/// kinds.
-void add_design_nodes(House& house);
+/// Registers design, placed, surface and measured. `registries` outlives the scenes: its readers read models
+/// of kinds.
+void add_design_nodes(Registries& registries);
 
 /// Does a node in a design stand for an object, a ground surface or a measurement? Kinds and views stand
 /// there, too.

@@ -67,7 +67,7 @@ Status write_all(int file, std::string_view bytes, const std::filesystem::path& 
     bytes.remove_prefix(std::size_t(written));
   }
   if (fdatasync(file) != 0) return error("{}: {}", path.string(), std::strerror(errno));
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace
@@ -158,7 +158,7 @@ Result<Journal> Journal::resume(const std::filesystem::path& file) {
 }
 
 Status Journal::append(const JournalEntry& entry) {
-  if (!is_open()) return Done{};
+  if (!is_open()) return Ok{};
   return write_all(file_, line_of(words[std::size_t(entry.what)], entry.text), path_);
 }
 

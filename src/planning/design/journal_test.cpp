@@ -62,7 +62,7 @@ TEST_F(JournalTest, ASavedDesignOpensWithItsSteps) {
   const Result<std::string> text = read_file(design);
   ASSERT_TRUE(text);
   EXPECT_NE(text->find("include(file=scene.xp)"), std::string::npos) << *text;
-  auto loaded = scene::load_scene(design, house_.get<scene::NodeRegistry>(), data_folders_);
+  auto loaded = scene::load_scene(design, registries_.get<scene::NodeRegistry>(), data_folders_);
   ASSERT_TRUE(loaded) << to_string(loaded.errors());
   scene_ = std::move(loaded->scene), live_ = scene::LiveScene(std::move(loaded->script));
   session_ = *Session::open(scene_, live_, "", {});

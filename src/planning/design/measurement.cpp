@@ -100,7 +100,7 @@ Status check_measurement(Quantity quantity, const std::vector<glm::dvec3>& point
         return error("a slope has two places side by side; these lie one above the other");
       break;
   }
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis::design

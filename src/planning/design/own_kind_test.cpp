@@ -11,7 +11,7 @@ namespace {
 class OwnKindTest : public DesignTest {
  protected:
   OwnKindTest() {
-    gltf::furnish(house_), meshes::furnish(house_);
+    gltf::register_room(registries_), meshes::register_room(registries_);
     open();
   }
 
@@ -24,7 +24,7 @@ class OwnKindTest : public DesignTest {
     return folder_.write(name, text + "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n");
   }
   Result<OwnKind> import(const std::filesystem::path& file, double unit_m = 0.0) {
-    return import_kind(house_.get<formats::Readers>(), scene_, file, unit_m);
+    return import_kind(registries_.get<formats::Readers>(), scene_, file, unit_m);
   }
   void take(const std::filesystem::path& file) {
     const Result<OwnKind> kind = import(file);

@@ -32,14 +32,14 @@ Status Preview::show(const Changes& changes, const scene::Node* design, std::siz
   }
   scene::SceneBuilder builder(live_.registry(), std::move(models_));
   builder.scene.data<Kinds>() = place_.data<Kinds>();
-  builder.scene.data<vegetation::PlantShelf>() = place_.data<vegetation::PlantShelf>();
-  for (const auto& [recipe, shape] : shown_.data<vegetation::PlantShelf>().shapes)
-    builder.scene.data<vegetation::PlantShelf>().shapes.emplace(recipe, shape);
+  builder.scene.data<vegetation::PlantCache>() = place_.data<vegetation::PlantCache>();
+  for (const auto& [recipe, shape] : shown_.data<vegetation::PlantCache>().shapes)
+    builder.scene.data<vegetation::PlantCache>().shapes.emplace(recipe, shape);
   builder.build(nodes, design ? live_.frame_of(*design).world_from_nodes : glm::mat4(1.0f));
   const Errors errors = builder.errors();
   scene::Scene built = std::move(builder.scene);
   models_ = std::move(builder).take_script().models;
-  shown_.data<vegetation::PlantShelf>() = built.data<vegetation::PlantShelf>();
+  shown_.data<vegetation::PlantCache>() = built.data<vegetation::PlantCache>();
   if (!errors.empty()) {
     clear();
     return errors;
@@ -48,7 +48,7 @@ Status Preview::show(const Changes& changes, const scene::Node* design, std::siz
   shown_.data<vegetation::PlantDetail>() = place_.data<vegetation::PlantDetail>();
   shown_.data<vegetation::ScenePlants>() = built.data<vegetation::ScenePlants>();
   put_objects(std::move(built.objects), in_red);
-  return Done{};
+  return Ok{};
 }
 
 /// Each takes the place of a hidden one of the same model and paint, so that nothing is uploaded again.

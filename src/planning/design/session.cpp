@@ -91,7 +91,7 @@ Status Session::select_by(const std::vector<std::string>& words) {
     for (const PlacedObject& object : all)
       if (fits(object)) names.push_back(object.name);
     selected_ = std::move(names);
-    return Status(Done{});
+    return Status(Ok{});
   };
   if (how == "all" && words.size() == 2) return choose([](const PlacedObject&) { return true; });
   if (how == "none" && words.size() == 2) return choose([](const PlacedObject&) { return false; });
@@ -137,12 +137,12 @@ Status Session::select_by(const std::vector<std::string>& words) {
     at = end + 1;
   }
   selected_ = std::move(names);
-  return Done{};
+  return Ok{};
 }
 
 Status Session::run(std::string_view text) {
   std::vector<std::string> words = split(text);
-  if (words.empty()) return Done{};
+  if (words.empty()) return Ok{};
   if (words.front() == "select") return select_by(words);
   if (words.size() == 1 && words.front() == "undo") return undo();
   if (words.size() == 1 && words.front() == "redo") return redo();
@@ -193,7 +193,7 @@ Status Session::do_step(const Command& command) {
   select(selected_);
   done_.push_back({text_of(command), sentence_of(command), *std::move(changes)});
   undone_.clear();
-  return Done{};
+  return Ok{};
 }
 
 Status Session::apply_one(const Change& change, bool forward) {
@@ -219,13 +219,13 @@ Status Session::apply_one(const Change& change, bool forward) {
     }
     const Result<const Node*> inserted = live.insert(scene, *to, {parent, child_of(parent, change.behind)});
     if (!inserted) return inserted.errors();
-    return Done{};
+    return Ok{};
   }
   if (to->text("name") != from->text("name"))
     if (Status status = live.rename(scene, *here, to->text("name")); !status) return status;
   live.set_all(*here, to->attributes);
   if (Errors errors = live.refresh(scene); !errors.empty()) return errors;
-  return Done{};
+  return Ok{};
 }
 
 /// Applies all changes or none.
@@ -239,7 +239,7 @@ Status Session::apply(const Changes& changes, bool forward) {
     }
     return status;
   }
-  return Done{};
+  return Ok{};
 }
 
 Status Session::take_step(std::vector<Step>& from, std::vector<Step>& to, bool forward) {
@@ -248,7 +248,7 @@ Status Session::take_step(std::vector<Step>& from, std::vector<Step>& to, bool f
   to.push_back(std::move(from.back()));
   from.pop_back();
   select(selected_);
-  return Done{};
+  return Ok{};
 }
 
 Status Session::undo() {
@@ -269,11 +269,11 @@ Status Session::replace_all(const std::string& base, const std::filesystem::path
   if (const Node* node = design())
     while (!node->children.empty())
       if (Status status = live.remove(scene_, node->children.back()); !status) return status;
-  if (base.empty() || !design()) return Done{};
+  if (base.empty() || !design()) return Ok{};
   const auto restored = live.insert_script(scene_, base, {design(), nullptr},
                                            Roots(scene_.get().file.parent_path()), file.string());
   if (!restored) return restored.errors();
-  return Done{};
+  return Ok{};
 }
 
 Result<std::string> Session::keep_journal(const std::filesystem::path& file) {
@@ -304,14 +304,14 @@ Result<std::string> Session::keep_journal(const std::filesystem::path& file) {
   int line = 3;
   for (const JournalEntry& entry : content->entries) {
     ++line;
-    Status status = Done{};
+    Status status = Ok{};
     if (entry.what == JournalEntry::What::command) {
       const Result<Command> command = parse_command(entry.text);
       status = command ? do_step(*command) : Status(command.errors());
       const bool was_taken_back = !status && &entry != &content->entries.back() &&
                                   (&entry + 1)->what == JournalEntry::What::undo &&
                                   (&entry + 1)->text == "failed";
-      if (was_taken_back) status = Done{};
+      if (was_taken_back) status = Ok{};
     } else if (entry.what == JournalEntry::What::undo && entry.text != "failed") {
       status = take_step(done_, undone_, false);
     } else if (entry.what == JournalEntry::What::redo) {

@@ -1,23 +1,23 @@
 // A scene with the nodes of designs, for tests.
 #pragma once
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "planning/design/session.h"
 #include "room_list.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::design {
 
-inline House test_house() {
-  House house;
-  script::furnish(house), vegetation::furnish(house), furnish(house);
-  return house;
+inline Registries test_registries() {
+  Registries registries;
+  script::register_room(registries), vegetation::register_room(registries), register_room(registries);
+  return registries;
 }
 
 /// Opens scenes of scripts, whose ground is level.
 class DesignTest : public scene::ScriptTest<> {
  protected:
-  DesignTest() : ScriptTest(test_house()) {}
+  DesignTest() : ScriptTest(test_registries()) {}
 
   void open(const std::string& script = "camera(name=eye)") {
     session_.reset();

@@ -36,7 +36,7 @@ Status lay_out(const propagation::SceneTerrain& terrain, const NoiseOptions& opt
       map.receiver_of_cell.push_back(is_built ? -1 : int(map.receivers.size()));
       if (!is_built) map.receivers.push_back({Place(at, terrain.ground_z(at) + options.height_m), {}, -1, 0});
     }
-  return Done{};
+  return Ok{};
 }
 
 /// Receivers before walls of buildings, at each floor, on the sides that are open.

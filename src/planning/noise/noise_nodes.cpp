@@ -1,5 +1,5 @@
 // trafficCount: how many vehicles pass on a road, for noise.
-#include "base/house.h"
+#include "base/registries.h"
 #include "planning/noise/traffic_count.h"
 #include "room_list.h"
 #include "scene/script/attribute.h"
@@ -59,6 +59,8 @@ void build_count(const scene::Node& node, scene::SceneBuilder& builder) {
 
 }  // namespace
 
-void furnish(House& house) { house.get<scene::NodeRegistry>().add(count_schema(), build_count); }
+void register_room(Registries& registries) {
+  registries.get<scene::NodeRegistry>().add(count_schema(), build_count);
+}
 
 }  // namespace parvis::noise

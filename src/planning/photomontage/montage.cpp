@@ -26,7 +26,7 @@ struct Traced {
   ImageF distance_m;  ///< through the pixels' centres; infinite: the sky
 };
 
-Traced trace(house::Stage& stage, const LensView& view) {
+Traced trace(stage::Stage& stage, const LensView& view) {
   Traced traced{stage.trace(view.camera, view.width, view.height, 1).radiance,
                 ImageF(view.width, view.height, 1, INFINITY)};
   const reference::RayScene rays(stage.scene());
@@ -137,24 +137,24 @@ Pixel composed(const MontageJob& job, const Pieces& pieces, glm::vec3 photograph
   return pixel;
 }
 
-Status show(house::Stage& stage, const std::string& design, bool is_shown) {
+Status show(stage::Stage& stage, const std::string& design, bool is_shown) {
   std::vector<std::string> names;
-  house::Play& play = stage.play();
-  for (const scene::Node* node : design::designs_of(play.live())) {
+  stage::Simulation& simulation = stage.simulation();
+  for (const scene::Node* node : design::designs_of(simulation.live())) {
     names.push_back(node->text("name"));
     if (names.back() != design) continue;
-    play.live().set(*node, "visible", is_shown);
-    if (Errors errors = play.live().refresh(play.scene); !errors.empty()) return errors;
-    play.clock.follow(play.scene);
-    play.settle();
-    return Done{};
+    simulation.live().set(*node, "visible", is_shown);
+    if (Errors errors = simulation.live().refresh(simulation.scene); !errors.empty()) return errors;
+    simulation.clock.follow(simulation.scene);
+    simulation.settle();
+    return Ok{};
   }
   return error("the scene has no design \"{}\"{}", design.substr(0, 40), names_that_exist(design, names));
 }
 
 }  // namespace
 
-Result<Montage> make_montage(house::Stage& stage, const MontageJob& job) {
+Result<Montage> make_montage(stage::Stage& stage, const MontageJob& job) {
   const photographs::Lens& lens = job.photograph.lens;
   const int side = pieces_across(lens);
   const Result<LensView> view = view_of(job.photograph, side);

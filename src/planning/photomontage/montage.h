@@ -38,6 +38,6 @@ struct Montage {
 /// the photograph shows (walls, cars) hides the design behind it. Needs a current context. Errors: no such
 /// design, a lens too wide, a photograph that shows nothing of the scene so that no brightness can be found,
 /// a design out of sight.
-Result<Montage> make_montage(house::Stage& stage, const MontageJob& job);
+Result<Montage> make_montage(stage::Stage& stage, const MontageJob& job);
 
 }  // namespace parvis::photomontage

@@ -8,9 +8,9 @@
 #include "base/colour.h"
 #include "base/test_folder.h"
 #include "graphics/gl/test_context.h"
-#include "house/rooms.h"
 #include "planning/photomontage/caption.h"
 #include "planning/photomontage/lens_view.h"
+#include "rooms/rooms.h"
 
 namespace parvis::photomontage {
 namespace {
@@ -27,11 +27,12 @@ class PhotomontageTest : public gl::ContextTest {
  protected:
   PhotomontageTest() {
     folder_.write("court.xp", court), folder_.write("floor.obj", floor_model);
-    Result<house::Play> play = house::open_play(house::all_rooms(), folder_.path() / "court.xp", {});
-    if (!play) throw std::runtime_error(to_string(play.errors()));
-    play->settle();
-    camera_ = *play->camera("street");
-    stage_ = *house::Stage::create(*std::move(play));
+    Result<stage::Simulation> simulation =
+        stage::open_simulation(rooms::all_registries(), folder_.path() / "court.xp", {});
+    if (!simulation) throw std::runtime_error(to_string(simulation.errors()));
+    simulation->settle();
+    camera_ = *simulation->camera("street");
+    stage_ = *stage::Stage::create(*std::move(simulation));
   }
   /// A grey photograph of this size by the scene's camera.
   MontageJob job(int width, int height) const {
@@ -47,7 +48,7 @@ class PhotomontageTest : public gl::ContextTest {
 
   TestFolder folder_;
   Camera camera_;
-  std::unique_ptr<house::Stage> stage_;
+  std::unique_ptr<stage::Stage> stage_;
 };
 
 /// Middle of the pixels that differ from the photograph's grey, and their number.

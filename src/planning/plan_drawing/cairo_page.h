@@ -110,7 +110,7 @@ class Page {
     const cairo_status_t status = cairo_surface_status(surface_.get());
     if (status != CAIRO_STATUS_SUCCESS)
       return error("the plan could not be written ({})", cairo_status_to_string(status));
-    return Done{};
+    return Ok{};
   }
 
  private:

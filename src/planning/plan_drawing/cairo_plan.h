@@ -149,9 +149,9 @@ class PlanPainter {
     if (first >= last) return;
     const glm::dvec2 begin = glm::mix(from, to, first), end = glm::mix(from, to, last);
     double x = 0.0, y = 0.0;
-    const bool goes_on = cairo_has_current_point(page_.context()) != 0;
-    if (goes_on) cairo_get_current_point(page_.context(), &x, &y);
-    if (!goes_on || std::abs(x - begin.x) + std::abs(y - begin.y) > 1e-6)
+    const bool continues = cairo_has_current_point(page_.context()) != 0;
+    if (continues) cairo_get_current_point(page_.context(), &x, &y);
+    if (!continues || std::abs(x - begin.x) + std::abs(y - begin.y) > 1e-6)
       cairo_move_to(page_.context(), begin.x, begin.y);
     cairo_line_to(page_.context(), end.x, end.y);
   }

@@ -107,7 +107,7 @@ void build(const scene::Node& node, scene::SceneBuilder& builder, KnownDrawings&
   PlacedDrawing placed;
   placed.drawing = known.read(node, builder);
   if (!placed.drawing) return;
-  if (const Status letters = placed.drawing->texts.empty() ? Status(Done{}) : letters_known(); !letters)
+  if (const Status letters = placed.drawing->texts.empty() ? Status(Ok{}) : letters_known(); !letters)
     return builder.fail(letters.errors(), node.where_of("file"));
   const Result<std::vector<bool>> shown =
       shown_layers(*placed.drawing, node.gives("layers") ? node.text("layers") : "");

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "base/house.h"
 #include "base/image_io.h"
+#include "base/registries.h"
 #include "formats/drawings/test_drawing.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
@@ -20,15 +20,15 @@ namespace {
 
 using formats::TestDrawing;
 
-House test_house() {
-  House house;
-  script::furnish(house), furnish(house);
-  return house;
+Registries test_registries() {
+  Registries registries;
+  script::register_room(registries), register_room(registries);
+  return registries;
 }
 
 class PlanNodes : public scene::ScriptTest<gl::ContextTest> {
  protected:
-  PlanNodes() : ScriptTest(test_house()) {}
+  PlanNodes() : ScriptTest(test_registries()) {}
 
   /// Two layers, one of them off, near Lambert-93's coordinates of a town.
   void write_drawing(const std::string& unit = "6") const {

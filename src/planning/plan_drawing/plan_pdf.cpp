@@ -14,7 +14,7 @@ std::optional<glm::dvec2> paper_size_mm(const std::string& paper) {
 }
 
 Status check_scale(double scale) {
-  if (scale >= min_plan_scale && scale <= max_plan_scale) return Done{};
+  if (scale >= min_plan_scale && scale <= max_plan_scale) return Ok{};
   return error("a scale of 1:{:g}; expected 1:{:g} to 1:{:g}", scale, min_plan_scale, max_plan_scale);
 }
 

@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "planning/plan_drawing/plan_nodes.h"
 #include "room_list.h"
 #include "scene/script/node_registry.h"
@@ -6,8 +6,8 @@
 namespace parvis::plan_drawing {
 
 /// Adds the node types.
-void furnish(House& house) {
-  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
+void register_room(Registries& registries) {
+  scene::NodeRegistry& registry = registries.get<scene::NodeRegistry>();
   add_drawing_node(registry);
   add_picture_node(registry);
 }

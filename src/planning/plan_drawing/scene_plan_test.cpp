@@ -84,7 +84,7 @@ TEST(ScenePlan, ATreeOfADesignIsOneTree) {
   recipe.kind = vegetation::find_kind("orange");
   recipe.height_m = 3.0f;
   scene::Scene scene = small_place();
-  auto shape = vegetation::shared_plant(scene.data<vegetation::PlantShelf>(), recipe);
+  auto shape = vegetation::shared_plant(scene.data<vegetation::PlantCache>(), recipe);
   ASSERT_TRUE(shape) << to_string(shape.errors());
   for (const float x : {2.0f, 9.0f}) {
     vegetation::ScenePlant plant;

@@ -6,7 +6,7 @@ namespace parvis::plan_drawing {
 
 Status letters_known() {
   const Result<const CairoFunctions*> functions = cairo.functions();
-  return functions ? Status(Done{}) : functions.errors();
+  return functions ? Status(Ok{}) : functions.errors();
 }
 
 TextOutlines text_outlines(const formats::DrawingText& text) {

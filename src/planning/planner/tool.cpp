@@ -118,9 +118,9 @@ void Tool::choose(Mode mode) {
 }
 
 void Tool::choose_measure() {
-  const bool goes_on = mode_ == Mode::measure;
+  const bool continues = mode_ == Mode::measure;
   choose(Mode::measure);
-  if (goes_on) quantity_ = design::Quantity((std::size_t(quantity_) + 1) % design::quantity_names().size());
+  if (continues) quantity_ = design::Quantity((std::size_t(quantity_) + 1) % design::quantity_names().size());
 }
 
 void Tool::choose_kind(const std::string& kind) {
@@ -378,7 +378,7 @@ bool Tool::press(const Pointer& pointer) {
 Status Tool::finish() {
   const std::optional<design::Command> command = command_now();
   give_up();
-  if (!command) return Done{};
+  if (!command) return Ok{};
   return run(*command);
 }
 
@@ -397,13 +397,13 @@ void Tool::select_in_box(const Pointer& pointer) {
 }
 
 Status Tool::release(const Pointer& pointer) {
-  if (!is_pressed_) return Done{};
+  if (!is_pressed_) return Ok{};
   point(pointer);
   is_pressed_ = false;
   if (action_ == Action::box) {
     select_in_box(pointer);
     give_up();
-    return Done{};
+    return Ok{};
   }
   if (action_ != Action::none) return finish();
   if (mode_ == Mode::insert) {
@@ -415,15 +415,15 @@ Status Tool::release(const Pointer& pointer) {
       return run(*command);
     }
     show(std::nullopt);
-    return Done{};
+    return Ok{};
   }
-  if (mode_ == Mode::select || !place_) return Done{};
+  if (mode_ == Mode::select || !place_) return Ok{};
   const bool closes =
       draws_outline() && points_.size() > 2 &&
       glm::distance(*place_, points_.front()) < snap_within_m(pointer, *place_) * close_px / snap_px;
   if (closes) return finish_points();
   points_.push_back(rounded(*place_));
-  return mode_ == Mode::measure && !draws_outline() && points_.size() == 2 ? finish_points() : Status(Done{});
+  return mode_ == Mode::measure && !draws_outline() && points_.size() == 2 ? finish_points() : Status(Ok{});
 }
 
 /// Makes a surface or a measurement of the points that were clicked.
@@ -458,14 +458,14 @@ Status Tool::begin(Action action) {
   action_ = action;
   follows_click_ = true;
   grabbed_ = on_level(pointer_, anchor_.z).value_or(anchor_ + glm::dvec3(0.0, 1.0, 0.0));
-  return Done{};
+  return Ok{};
 }
 
 Status Tool::turn(double degrees) {
   if (mode_ == Mode::insert) {
     heading_deg_ = wrapped_deg(heading_deg_ + degrees);
     point(pointer_);
-    return Done{};
+    return Ok{};
   }
   if (session_.selected().empty()) return error("nothing is selected: click an object first");
   return session_.run(design::Turn{session_.selected(), degrees});
@@ -503,7 +503,7 @@ bool Tool::type(char character) {
 Status Tool::confirm() {
   if (action_ != Action::none) return finish();
   if (draws_outline() && points_.size() > 2) return finish_points();
-  return Done{};
+  return Ok{};
 }
 
 std::vector<Dimension> Tool::dimensions() const {

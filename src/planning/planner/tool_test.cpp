@@ -34,7 +34,7 @@ class ToolTest : public design::DesignTest {
   void place(const std::string& script) {
     open(script);
     scene::add(scene_, scene::model_of(scene::ground(60), scene::matt(glm::vec3(0.3f))));
-    house_.get<render::Drawables>().furnish(scene_);
+    registries_.get<render::Drawables>().attach(scene_);
     surfaces_.emplace(scene_);
     tool_.emplace(scene_, live_, *session_, *surfaces_);
     tool_->grid_m = 0.0;

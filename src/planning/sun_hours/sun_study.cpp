@@ -221,7 +221,7 @@ Status gather_surfaces(const scene::Scene& scene, const SunStudyOptions& options
         "the surfaces have more than {} vertices in cells of {} m: take a larger cell, a smaller area, or "
         "the ground alone",
         max_vertices, options.cell_m);
-  return Done{};
+  return Ok{};
 }
 
 /// Hours of all points: each process finds those of its blocks.

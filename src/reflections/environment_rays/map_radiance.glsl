@@ -72,7 +72,7 @@ LayerRadiance radiance_in_map(MapView view, vec2 roughness, float over_ground) {
   LayerRadiance seen = sharp_radiance(view, seen_roughness);
   bool base_is_glossy = seen_roughness.x >= min_gloss, passes_ground = over_ground > 0.0f,
        coat_is_glossy = seen_roughness.y >= min_gloss;
-  bool goes_on;
+  bool continues;
   do {
     bool is_base = base_is_glossy, is_over_ground = !is_base && passes_ground,
          is_coat = !is_base && !is_over_ground && coat_is_glossy;
@@ -83,7 +83,7 @@ LayerRadiance radiance_in_map(MapView view, vec2 roughness, float over_ground) {
     if (is_base) seen.base = glossy, base_is_glossy = false;
     if (is_over_ground) seen.base = mix(seen.base, glossy, over_ground), passes_ground = false;
     if (is_coat) seen.coat = glossy, coat_is_glossy = false;
-    goes_on = base_is_glossy || passes_ground || coat_is_glossy;
-  } while (goes_on);
+    continues = base_is_glossy || passes_ground || coat_is_glossy;
+  } while (continues);
   return seen;
 }

@@ -67,17 +67,17 @@ HeightHit walk_under(HeightfieldGrid grid, vec3 at, vec3 direction, float reach,
                      out float weights[2], out float seen) {
   HeightHit hit;
   float from = 0.0f;
-  bool goes_on;
+  bool continues;
   int passed = 0;
   do {
     hit = walk_pyramid(grid, at + from * direction, direction, reach - from);
     hit.distance += from;
     seen = choose_maps(at, direction, at + hit.distance * direction, places, weights);
-    goes_on = detail == all_detail && passed < max_cells_under && hit.kind == hit_side &&
-              is_seen_through(at + hit.distance * direction, places[0]);
+    continues = detail == all_detail && passed < max_cells_under && hit.kind == hit_side &&
+                is_seen_through(at + hit.distance * direction, places[0]);
     from = hit.distance + 0.01f * grid.cell_m;  // inside the cell, which the ray then leaves without a hit
     ++passed;
-  } while (goes_on);
+  } while (continues);
   return hit;
 }
 
@@ -123,19 +123,19 @@ void look_into_maps(vec3 point, vec4 places[2], float weights[2]) {
 // only where a ray shows both.
 void light_dynamic_parts(BodyHit body, bool wants_body, vec3 body_point, bool wants_ground, vec3 ground_point,
                          float map) {
-  bool goes_on;
+  bool continues;
   do {
     vec3 point = wants_body ? body_point : ground_point;
     vec3 normal = wants_body ? body.normal : vec3(0.0f, 0.0f, 1.0f);
     PlaceLight light = light_at(point, normal, wants_body ? point : above_ground(point));
-    goes_on = wants_body && wants_ground;
+    continues = wants_body && wants_ground;
     if (wants_body) {
       reflected.body_radiance = radiance_of_body(body, reflected.direction, map, light);
     } else if (wants_ground) {
       reflected.shade = light_left_by_bodies(point, normal, light);
     }
     wants_body = false;
-  } while (goes_on);
+  } while (continues);
 }
 
 // A dynamic object in front of all that the maps show, or the surface that the best map has recorded at the

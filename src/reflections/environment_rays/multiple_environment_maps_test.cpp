@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "base/house.h"
 #include "base/random.h"
+#include "base/registries.h"
 #include "graphics/bounced_light/bounced_over.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
@@ -55,9 +55,9 @@ TEST_F(EnvironmentMapsTest, ALayerHoldsColourAndDistanceOfEveryDirection) {
 }
 
 TEST_F(EnvironmentMapsTest, ScenesWithStreetsAndMirrorsHaveThisMethodUnlessTheyNameAnother) {
-  House house;
-  furnish(house);
-  const methods::Registry& registry = house.get<methods::Registry>();
+  Registries registries;
+  register_room(registries);
+  const methods::Registry& registry = registries.get<methods::Registry>();
   scene::Scene scene = render::room_scene(room_half_m);
   render::add_mirror(scene, glm::vec3(0.0f), 1.0f);
   EXPECT_EQ(registry.name_of(scene), "") << "no street";

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "reflections/environment_rays/multiple_environment_maps.h"
 #include "reflections/methods/registry.h"
 #include "reflections/reference_maps/settings.h"
@@ -16,9 +16,9 @@ bool suits(const scene::Scene& scene) {
 
 }  // namespace
 
-/// Adds them to the house's registries.
-void furnish(House& house) {
-  house.get<methods::Registry>().add(
+/// Adds them to Parvis's registries.
+void register_room(Registries& registries) {
+  registries.get<methods::Registry>().add(
       {.name = "multiple_environment_maps",
        .help = "a ray for each reflecting pixel, looked up in the reference maps that see what it hits",
        .make = make_multiple_environment_maps,

@@ -50,7 +50,7 @@ Result<LocalMapPicture> LocalMapPicture::create(int max_texels, LocalMapView sho
   const auto link = [](gl::Program& program, Result<gl::Program> linked) -> Status {
     if (!linked) return linked.errors();
     program = *std::move(linked);
-    return Done{};
+    return Ok{};
   };
   if (Status status = link(programs.radiance, gl::Program::create(mesh_vertex, mesh_fragment)); !status)
     return status.errors();

@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "reflections/local_maps/local_environment_maps.h"
 #include "reflections/local_maps/local_map_settings.h"
 #include "reflections/methods/registry.h"
@@ -28,9 +28,9 @@ void read_attributes(const scene::Node& node, methods::Settings& settings) {
 
 }  // namespace
 
-/// Adds them to the house's registries.
-void furnish(House& house) {
-  house.get<methods::Registry>().add(
+/// Adds them to Parvis's registries.
+void register_room(Registries& registries) {
+  registries.get<methods::Registry>().add(
       {.name = "local_environment_maps",
        .help = "an environment map for each reflector, made of the two nearest reference maps",
        .make = make_local_environment_maps,

@@ -54,7 +54,7 @@ Status Registry::prepare(scene::Scene& scene) const {
   for (const Method& method : methods_)
     if (method.prepare && (&method == *chosen || (method.is_overlay && method.is_wanted(scene))))
       method.prepare(scene);
-  return Done{};
+  return Ok{};
 }
 
 bool Registry::reads_baked(const scene::Scene& scene, const std::string& bake_step) const {

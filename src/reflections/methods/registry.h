@@ -1,5 +1,5 @@
 // The methods of reflection that scripts may name, and the overlays that lie over them. A room adds its own
-// (`void furnish(House&)`) and touches no other file.
+// (`void register_room(Registries&)`) and touches no other file.
 #pragma once
 
 #include <memory>

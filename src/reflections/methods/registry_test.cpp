@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/render/test_room.h"
@@ -64,8 +64,8 @@ scene::AttributeSchema radiance(const char* name, const char* fallback) {
   return number(name, "radiance").by_default(fallback);
 }
 
-void furnish(House& house) {
-  Registry& registry = house.get<Registry>();
+void register_room(Registries& registries) {
+  Registry& registry = registries.get<Registry>();
   registry.add(
       {.name = "green",
        .help = "mirrors shine green",
@@ -102,13 +102,13 @@ void furnish(House& house) {
        .attributes = {radiance("red", "0")},
        .read = [](const scene::Node& node,
                   Settings& settings) { settings.own.get<Paint>().red = float(node.number("red")); }});
-  add_reflection_node(house.get<scene::NodeRegistry>(), registry);
+  add_reflection_node(registries.get<scene::NodeRegistry>(), registry);
 }
 
 class RegistryTest : public scene::ScriptTest<gl::ContextTest> {
  protected:
-  RegistryTest() { furnish(house_); }
-  const Registry& registry() const { return house_.get<Registry>(); }
+  RegistryTest() { register_room(registries_); }
+  const Registry& registry() const { return registries_.get<Registry>(); }
 
   /// The settings of a script.
   Result<Settings> settings_of(const std::string& script) {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "graphics/gl/test_context.h"
 #include "graphics/light/sun_and_sky.h"
 #include "graphics/render/test_room.h"
@@ -17,12 +17,12 @@ namespace {
 using namespace render;  // the room with its walls
 
 const methods::Registry& registry() {
-  static House house = [] {
-    House made;
-    furnish(made);
+  static Registries registries = [] {
+    Registries made;
+    register_room(made);
     return made;
   }();
-  return house.get<methods::Registry>();
+  return registries.get<methods::Registry>();
 }
 
 constexpr int width = 160, height = 120;

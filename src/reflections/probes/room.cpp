@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/methods.h"
@@ -24,10 +24,10 @@ Made make(const scene::Scene& scene, render::Renderer&, std::unique_ptr<methods:
 
 }  // namespace
 
-/// Adds them to the house's registries.
-void furnish(House& house) {
+/// Adds them to Parvis's registries.
+void register_room(Registries& registries) {
   using namespace scene::attribute;
-  methods::Registry& registry = house.get<methods::Registry>();
+  methods::Registry& registry = registries.get<methods::Registry>();
   registry.add(
       {.name = "none", .help = "lights alone: mirrors show the mean light of the sky", .make = make_none});
   registry.add({.name = "rerendered_cube_map",

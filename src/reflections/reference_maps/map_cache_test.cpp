@@ -91,7 +91,7 @@ TEST_F(MapCacheTest, StaticDrawablesAreInTheMaps) {
     render::TestQuads quads{{before_the_eye, is_dynamic, is_visible}};
     render::Drawables drawables;
     drawables.add(test_quads_kind(quads));
-    drawables.furnish(scene_);
+    drawables.attach(scene_);
     return bake(drawables);
   };
   EXPECT_EQ(with_quad(true, true), bare);

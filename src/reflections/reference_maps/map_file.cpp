@@ -22,15 +22,15 @@ std::string bytes_of(const MapFile& map) {
 }
 
 std::optional<MapFile> map_of(std::string_view bytes) {
-  Taker taker(bytes);
+  ByteReader reader(bytes);
   MapFile map;
-  map.places = taker.take_values<glm::vec3>();
-  map.number = taker.take<std::uint32_t>();
-  map.resolution = taker.take<std::uint32_t>();
-  const std::uint32_t textures = taker.take<std::uint32_t>();
+  map.places = reader.take_values<glm::vec3>();
+  map.number = reader.take<std::uint32_t>();
+  map.resolution = reader.take<std::uint32_t>();
+  const std::uint32_t textures = reader.take<std::uint32_t>();
   for (std::uint32_t i = 0; i < std::min(textures, max_textures); ++i)
-    map.textures.push_back(taker.take_values<std::uint8_t>());
-  if (!taker.is_at_end()) return std::nullopt;
+    map.textures.push_back(reader.take_values<std::uint8_t>());
+  if (!reader.is_at_end()) return std::nullopt;
   return map;
 }
 

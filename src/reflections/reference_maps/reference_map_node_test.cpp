@@ -5,7 +5,7 @@
 #include "reflections/reference_maps/scene_maps.h"
 #include "reflections/reference_maps/settings.h"
 #include "room_list.h"
-#include "scene/script/test_house.h"
+#include "scene/script/test_registries.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::reference_maps {
@@ -13,7 +13,7 @@ namespace {
 
 class ReferenceMapNodeTest : public scene::ScriptTest<> {
  protected:
-  ReferenceMapNodeTest() : ScriptTest(scene::test_house()) { furnish(house_); }
+  ReferenceMapNodeTest() : ScriptTest(scene::test_registries()) { register_room(registries_); }
 };
 
 TEST_F(ReferenceMapNodeTest, PlacesAreTakenAsTheScriptGivesThem) {

@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "graphics/render/bake_steps.h"
 #include "reflections/methods/registry.h"
 #include "reflections/reference_maps/bake_step.h"
@@ -10,17 +10,17 @@
 
 namespace parvis::reference_maps {
 
-/// Adds them to the house's registries.
-void furnish(House& house) {
-  house.get<methods::Registry>().add(
+/// Adds them to Parvis's registries.
+void register_room(Registries& registries) {
+  registries.get<methods::Registry>().add(
       {.name = "simple_blend",
        .help = "the two nearest reference maps, blended as if they were infinitely far",
        .make = make_simple_blend,
        .attributes = {maps_attribute()},
        .read = read_maps});
-  house.get<render::BakeSteps>().add(
+  registries.get<render::BakeSteps>().add(
       {.name = "reference maps", .run = bake_and_plan, .forget_others = forget_other_states});
-  add_reference_map_node(house.get<scene::NodeRegistry>());
+  add_reference_map_node(registries.get<scene::NodeRegistry>());
 }
 
 }  // namespace parvis::reference_maps

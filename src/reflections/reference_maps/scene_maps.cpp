@@ -131,7 +131,7 @@ std::vector<glm::vec3> shared_places(const scene::Scene& scene, const HeightPyra
   std::string bytes;
   if (processes.is_first()) append_values(bytes, places_of(scene, heights, cache));
   processes.share_of_first(bytes);
-  return Taker(bytes).take_values<glm::vec3>();
+  return ByteReader(bytes).take_values<glm::vec3>();
 }
 
 /// The numbers of the maps that are not kept.
@@ -166,10 +166,10 @@ Result<std::vector<glm::vec3>> keep_maps(const scene::Scene& scene, const Height
     return bytes;
   };
   work.keep = [&](std::uint32_t number, std::string_view bytes) -> Status {
-    Taker taker(bytes);
-    MapFile file{places, number, taker.take<std::uint32_t>(), {}};
-    file.textures.resize(taker.take<std::uint32_t>());
-    for (std::vector<std::uint8_t>& texture : file.textures) texture = taker.take_values<std::uint8_t>();
+    ByteReader reader(bytes);
+    MapFile file{places, number, reader.take<std::uint32_t>(), {}};
+    file.textures.resize(reader.take<std::uint32_t>());
+    for (std::vector<std::uint8_t>& texture : file.textures) texture = reader.take_values<std::uint8_t>();
     progress.advance();
     return cache.write(file);
   };

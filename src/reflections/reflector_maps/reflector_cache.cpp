@@ -103,7 +103,7 @@ Result<BakedReflectors> bake_reflectors(const scene::Scene& scene, const machine
   };
   work.keep = [&](std::uint32_t i, std::string_view content) -> Status {
     progress.advance();
-    if (content.empty()) return Done{};  // it cannot be a reflector
+    if (content.empty()) return Ok{};  // it cannot be a reflector
     baked.files.insert(cache.file(wanted[i].source));
     return cache.keep(wanted[i].source, content);
   };

@@ -29,23 +29,23 @@ struct Writer {
 };
 
 struct Reader {
-  Taker taker;
+  ByteReader reader;
 
   template <class T>
   void value(T& v) {
-    v = taker.take<T>();
+    v = reader.take<T>();
   }
   template <class T>
   void values(std::vector<T>& v) {
-    v = taker.take_values<T>();
+    v = reader.take_values<T>();
   }
   template <class T, class Each>
   void list(std::vector<T>& items, Each each) {
-    for (std::uint32_t left = taker.take<std::uint32_t>(); left > 0 && !taker.has_ended_early(); --left)
+    for (std::uint32_t left = reader.take<std::uint32_t>(); left > 0 && !reader.has_ended_early(); --left)
       each(*this, items.emplace_back());
   }
   void text(std::string& t) {
-    const std::vector<char> characters = taker.take_values<char>();
+    const std::vector<char> characters = reader.take_values<char>();
     t.assign(characters.begin(), characters.end());
   }
 };
@@ -127,10 +127,10 @@ std::string bytes_of(const Reflector& reflector) {
 }
 
 std::optional<Reflector> reflector_of(std::string_view bytes) {
-  Reader reader{Taker(bytes)};
+  Reader reader{ByteReader(bytes)};
   Reflector reflector;
   pass(reader, reflector);
-  if (!reader.taker.is_at_end() || !is_right(reflector)) return std::nullopt;
+  if (!reader.reader.is_at_end() || !is_right(reflector)) return std::nullopt;
   return reflector;
 }
 

@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "graphics/render/bake_steps.h"
 #include "reflections/reflector_maps/reflector_cache.h"
 #include "room_list.h"
@@ -22,11 +22,11 @@ void forget_others(const scene::Scene& scene, const std::set<std::filesystem::pa
 
 }  // namespace
 
-/// Adds it to the house's registries.
-void furnish(House& house) {
-  house.get<render::BakeSteps>().add({.name = "reflector maps of curved mirrors and solid glass",
-                                      .run = bake,
-                                      .forget_others = forget_others});
+/// Adds it to Parvis's registries.
+void register_room(Registries& registries) {
+  registries.get<render::BakeSteps>().add({.name = "reflector maps of curved mirrors and solid glass",
+                                           .run = bake,
+                                           .forget_others = forget_others});
 }
 
 }  // namespace parvis::reflector_maps

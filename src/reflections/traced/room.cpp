@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "reflections/methods/registry.h"
 #include "reflections/traced/traced_reflections.h"
 #include "room_list.h"
@@ -15,9 +15,9 @@ Result<std::unique_ptr<methods::Reflections>> make(const scene::Scene& scene, re
 
 }  // namespace
 
-/// Adds it to the house's registries.
-void furnish(House& house) {
-  house.get<methods::Registry>().add(
+/// Adds it to Parvis's registries.
+void register_room(Registries& registries) {
+  registries.get<methods::Registry>().add(
       {.name = "traced",
        .help = "exact mirror rays through the scene for each reflecting pixel, on all cores",
        .make = make});

@@ -25,7 +25,7 @@ class DrawablesTest : public gl::ContextTest {
     quads_ = {{quad({-1.6f, -2.4f, 1.4f}, 0.9f, 1.4f), true, true},
               {quad({1.0f, -2.6f, 0.8f}, 0.2f, 0.6f), false, true}};
     drawables_.add(render::test_quads_kind(quads_));
-    drawables_.furnish(scene_);
+    drawables_.attach(scene_);
   }
   Compared draw(const render::Drawables& drawables) const {
     return draw_by(

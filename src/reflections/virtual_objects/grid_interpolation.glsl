@@ -33,7 +33,7 @@ InterpolatedPoint interpolated_point(int grid, int first_row, vec3 vertex) {
     vec3 shares = mix(1.0f - part, part, vec3(far));
     float share = shares.x * shares.y * shares.z;
     VirtualPoint point = searched_point(corner, first_row);
-    image += vec4(share * point.image, point.doubt);
+    image += vec4(share * point.image, point.certainty);
     seen_from += share * point.seen_from;
     shown_by += share * point.shown_by;
   }

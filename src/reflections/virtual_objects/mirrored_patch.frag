@@ -4,7 +4,7 @@
 
 uniform vec3 viewer_in_world;
 
-in float doubt;
+in float certainty;
 in float height;
 in vec3 shown_by;
 in vec3 seen_from;
@@ -12,7 +12,7 @@ in vec3 at_second;
 out vec4 radiance;
 
 void main() {
-  if (!is_shown_whole(doubt, height, shown_by)) discard;
+  if (!is_shown_whole(certainty, height, shown_by)) discard;
   // Layers hold the corners of a triangle in different images.
   if (patch_layer >= 0 &&
       !is_mirrored(moved(reflector_from_world, viewer_in_world), moved(reflector_from_world, seen_from),

@@ -1,6 +1,6 @@
-// Is a point of a virtual triangle shown, by what its corners know? `doubt` is `sure` where all have a place
-// in the mirror image, `height` is above the reflector (what lies below it is hidden), `shown_by` its normal
-// where it shows them.
+// Is a point of a virtual triangle shown, by what its corners know? `certainty` is `sure` where all have a
+// place in the mirror image, `height` is above the reflector (what lies below it is hidden), `shown_by` its
+// normal where it shows them.
 
 // How sure a place is. Between the corners of a triangle one that is lost outweighs any that are doubtful.
 const float sure = 0.0f;
@@ -12,6 +12,6 @@ const float lost = 1e4f;  // the mirror has no place that shows it
 // between them.
 const float min_agreement = 0.95f;
 
-bool is_shown_whole(float doubt, float height, vec3 shown_by) {
-  return doubt == sure && height >= 0.0f && dot(shown_by, shown_by) >= min_agreement;
+bool is_shown_whole(float certainty, float height, vec3 shown_by) {
+  return certainty == sure && height >= 0.0f && dot(shown_by, shown_by) >= min_agreement;
 }

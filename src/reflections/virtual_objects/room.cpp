@@ -1,4 +1,4 @@
-#include "base/house.h"
+#include "base/registries.h"
 #include "reflections/methods/registry.h"
 #include "reflections/reflector_maps/settings.h"
 #include "reflections/virtual_objects/long_edges.h"
@@ -59,9 +59,9 @@ void read_virtual_objects(const scene::Node& node, methods::Settings& settings) 
 
 }  // namespace
 
-/// Adds them to the house's registries.
-void furnish(House& house) {
-  methods::Registry& registry = house.get<methods::Registry>();
+/// Adds them to Parvis's registries.
+void register_room(Registries& registries) {
+  methods::Registry& registry = registries.get<methods::Registry>();
   registry.add({.name = virtual_objects_method,
                 .help = "every object by its virtual image: each vertex at its reflection point",
                 .make = make_virtual_objects,

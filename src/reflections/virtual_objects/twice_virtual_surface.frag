@@ -4,7 +4,7 @@
 #include "reflections/reflector_maps/patch_uniforms.glsl"
 #include "reflections/virtual_objects/mirrored_triangle.glsl"
 
-in float doubt;
+in float certainty;
 in float height;
 in vec3 shown_by;
 in vec3 seen_first_from;
@@ -21,7 +21,8 @@ bool mirrors(int by, vec3 from, vec3 at_mirror, vec3 to) {
 }
 
 bool is_mirrored_here() {
-  return is_shown_whole(doubt, height, shown_by) && is_shown_whole(doubt, height_of_second, shown_first_by) &&
+  return is_shown_whole(certainty, height, shown_by) &&
+         is_shown_whole(certainty, height_of_second, shown_first_by) &&
          mirrors(0, viewer_position.xyz, seen_first_from, seen_from) &&
          mirrors(1, seen_first_from, seen_from, position);
 }

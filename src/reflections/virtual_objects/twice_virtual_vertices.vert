@@ -29,7 +29,7 @@ void main() {
   TwoBounces found =
       search_two_bounces(first, first_kind, patch_layers[0], second, second_kind, patch_layers[1]);
   ReflectionPoint near = found.first.point, far = found.second.point;
-  doubt = has_place(found.first, first_kind) && has_place(found.second, second_kind) ? sure : lost;
+  certainty = has_place(found.first, first_kind) && has_place(found.second, second_kind) ? sure : lost;
   height = dot(second.vertex - far.position, far.normal);
   shown_by = far.normal;
   seen_from = moved(world_from_reflector, far.position);
@@ -39,6 +39,6 @@ void main() {
   turn_to(0);
   seen_first_from = moved(world_from_reflector, near.position);
   image = virtual_vertex(image, near.position, near.normal);
-  if (doubt == lost) image = map_centre;  // finite; the triangle is not drawn
+  if (certainty == lost) image = map_centre;  // finite; the triangle is not drawn
   gl_Position = clip_from_world * vec4(moved(world_from_reflector, image), 1.0f);
 }

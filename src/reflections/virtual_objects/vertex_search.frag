@@ -23,7 +23,7 @@ void main() {
   vec3 in_world =
       vec3(dot(world_from_corner_row0, p), dot(world_from_corner_row1, p), dot(world_from_corner_row2, p));
   VirtualPoint point = virtual_point(viewer_in_reflector, moved(reflector_from_world, in_world));
-  image = vec4(point.image, point.doubt);
+  image = vec4(point.image, point.certainty);
   seen_from = vec4(point.seen_from, 0.0f);
   shown_by = vec4(point.shown_by, 0.0f);
 }

@@ -2,15 +2,15 @@
 #include "reflections/virtual_objects/virtual_point.glsl"
 
 out vec3 seen_from;
-out float doubt;
+out float certainty;
 out vec3 shown_by;
 out float height;
 
 // Hands on a point that shows a vertex in the mirror's frame; the image, in the world.
 vec3 place_of(VirtualPoint point, vec3 vertex) {
-  doubt = point.doubt;
-  height = point.doubt == sure ? dot(vertex - point.seen_from, point.shown_by)
-                               : 0.0f;  // leaves it to the sure ones
+  certainty = point.certainty;
+  height = point.certainty == sure ? dot(vertex - point.seen_from, point.shown_by)
+                                   : 0.0f;  // leaves it to the sure ones
   shown_by = point.shown_by;
   seen_from = moved(world_from_reflector, point.seen_from);
   return moved(world_from_reflector, point.image);

@@ -33,7 +33,7 @@ struct VirtualPoint {
   vec3 image;      // behind the surface, as behind the plane that touches there
   vec3 seen_from;  // the reflection point
   vec3 shown_by;   // the surface's normal there
-  float doubt;
+  float certainty;
 };
 
 PatchKind patch_kind_of_mirror() { return PatchKind(patch_kind.x > 0.5f, patch_kind.y > 0.5f); }
@@ -70,9 +70,9 @@ bool has_place(PatchPoint found, PatchKind kind) {
 VirtualPoint virtual_point(vec3 viewer, vec3 vertex) {
   PatchKind kind = patch_kind_of_mirror();
   PatchPoint found = point_of_mirror(ReflectionTask(viewer, vertex, map_centre), kind);
-  float doubt = kind.is_convex && patch_layer < 0 && found.point.angle < doubtful_angle ? doubtful : lost;
-  if (has_place(found, kind)) doubt = sure;
+  float certainty = kind.is_convex && patch_layer < 0 && found.point.angle < doubtful_angle ? doubtful : lost;
+  if (has_place(found, kind)) certainty = sure;
   vec3 image = virtual_vertex(vertex, found.point.position, found.point.normal);
-  if (doubt == lost) image = map_centre;  // finite; the triangle is not drawn
-  return VirtualPoint(image, found.point.position, found.point.normal, doubt);
+  if (certainty == lost) image = map_centre;  // finite; the triangle is not drawn
+  return VirtualPoint(image, found.point.position, found.point.normal, certainty);
 }

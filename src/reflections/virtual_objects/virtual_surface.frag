@@ -4,7 +4,7 @@
 #include "reflections/reflector_maps/patch_uniforms.glsl"
 #include "reflections/virtual_objects/mirrored_triangle.glsl"
 
-in float doubt;
+in float certainty;
 in float height;
 in vec3 shown_by;
 
@@ -22,9 +22,9 @@ float beside_px() {
 // only where the pixel itself shows it.
 bool is_mirrored_here() {
   // A corner must be sure, and none lost. Beyond a triangle's edge, where the middle of a pixel may lie,
-  // doubt turns negative.
-  if (abs(doubt) > 0.999f * doubtful || height < 0.0f) return false;
-  bool is_doubtful = doubt != sure;
+  // certainty turns negative.
+  if (abs(certainty) > 0.999f * doubtful || height < 0.0f) return false;
+  bool is_doubtful = certainty != sure;
   if (patch_layer < 0 && !is_doubtful && dot(shown_by, shown_by) >= min_agreement) return true;
   if (is_doubtful && beside_px() > max_beside_px) return false;
   return is_mirrored(moved(reflector_from_world, viewer_position.xyz), moved(reflector_from_world, seen_from),

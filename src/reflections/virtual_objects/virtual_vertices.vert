@@ -33,7 +33,7 @@ VirtualPoint point_of_vertex(vec3 vertex) {
   for (int grids = vertex_data.x > 0 ? 1 : 0; grids > 0; --grids) {
     InterpolatedPoint between = interpolated_point(vertex_data.x, vertex_data.y, mesh_position);
     point = between.point;
-    bool strays = point.doubt > sure || stray_px(vertex, point) > max_stray_px;
+    bool strays = point.certainty > sure || stray_px(vertex, point) > max_stray_px;
     searches = strays && !between.is_between_lost ? 1 : 0;
   }
   for (; searches > 0; --searches)

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "room_list.h"
 #include "scene/action/actions.h"
 #include "scene/action/animation_process.h"
@@ -209,8 +209,8 @@ const std::vector<std::string>& key_names() {
 }
 
 /// Adds their processes and the node types keys, timer, proximity; path and tour with their keyframes.
-void furnish(House& house) {
-  scene::NodeRegistry& registry = house.get<scene::NodeRegistry>();
+void register_room(Registries& registries) {
+  scene::NodeRegistry& registry = registries.get<scene::NodeRegistry>();
   registry.add(keys_schema(), build_nothing);
   registry.add(timer_schema(), build_nothing);
   registry.add(proximity_schema(), build_nothing);
@@ -218,7 +218,7 @@ void furnish(House& house) {
   registry.add(key_schema(), build_nothing);
   registry.add(tour_schema(), check_tour);
   registry.add(stop_schema(), build_nothing);
-  Processes& processes = house.get<Processes>();
+  Processes& processes = registries.get<Processes>();
   processes.add([] { return std::make_unique<Actions>(); });
   processes.add([] { return std::make_unique<AnimationProcess>(); });
 }

@@ -5,7 +5,7 @@
 #include "formats/gltf/gltf_writer.h"
 #include "scene/action/scene_clock.h"
 #include "scene/data/test_scene.h"
-#include "scene/script/test_house.h"
+#include "scene/script/test_registries.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::action {
@@ -14,7 +14,7 @@ namespace {
 /// A scene that runs: scripts with a model file "box.glb", half a metre about its origin.
 class ActionsTest : public scene::ScriptTest<> {
  protected:
-  ActionsTest() : ScriptTest(scene::test_house()) {
+  ActionsTest() : ScriptTest(scene::test_registries()) {
     const auto box = scene::model_of(scene::box(glm::vec3(-0.5f), glm::vec3(0.5f)), {});
     EXPECT_TRUE(scene::write_gltf(folder_.path() / "box.glb", *box));
   }
@@ -26,7 +26,7 @@ class ActionsTest : public scene::ScriptTest<> {
     scene::LiveScene live(std::move(loaded->script));
     const Status status = live.prepare_scenarios(scene_);
     ASSERT_TRUE(status) << to_string(status.errors());
-    clock_.emplace(house_.get<Processes>(), std::move(live), scene_);
+    clock_.emplace(registries_.get<Processes>(), std::move(live), scene_);
   }
   void advance(double seconds) { clock_->advance(scene_, seconds, {visitor_}); }
   Actions& actions() { return *clock_->find<Actions>(); }

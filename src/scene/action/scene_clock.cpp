@@ -81,7 +81,7 @@ Status SceneClock::send(const scene::Node& target, const std::string& text) {
                      target.schema->type, name);
     }
   shared_->queue.post({&target, *std::move(message), {}, 0});
-  return Done{};
+  return Ok{};
 }
 
 Status SceneClock::send(const scene::Node& target, const scene::AttributeSchema& attribute,
@@ -90,7 +90,7 @@ Status SceneClock::send(const scene::Node& target, const scene::AttributeSchema&
   scene::Message message{target.schema->find_message(attribute.name), {}, attribute.name};
   message.arguments.push_back(std::move(value));
   shared_->queue.post({&target, std::move(message), {}, 0});
-  return Done{};
+  return Ok{};
 }
 
 std::vector<Process*> SceneClock::processes() const {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "room_list.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/test_script.h"
@@ -44,8 +44,8 @@ class Bells final : public Process {
   long steps_ = 0;
 };
 
-void furnish_bells(House& house) {
-  house.get<scene::NodeRegistry>().add(
+void register_bells(Registries& registries) {
+  registries.get<scene::NodeRegistry>().add(
       {.type = "belltower",
        .help = "Rings.",
        .attributes = {},
@@ -56,18 +56,20 @@ void furnish_bells(House& house) {
                     {"melt", "which nobody does", {}}},
        .is_unique = true},
       [](const Node&, scene::SceneBuilder&) {});
-  house.get<Processes>().add([] { return std::make_unique<Bells>(); });
+  registries.get<Processes>().add([] { return std::make_unique<Bells>(); });
 }
 
 class SceneClockTest : public scene::ScriptTest<> {
  protected:
-  SceneClockTest() { script::furnish(house_), furnish(house_), furnish_bells(house_); }
+  SceneClockTest() {
+    script::register_room(registries_), register_room(registries_), register_bells(registries_);
+  }
 
   void load(const std::string& script) {
     auto loaded = ScriptTest::load(script);
     ASSERT_TRUE(loaded) << to_string(loaded.errors());
     scene_ = std::move(loaded->scene);
-    clock_.emplace(house_.get<Processes>(), scene::LiveScene(std::move(loaded->script)), scene_);
+    clock_.emplace(registries_.get<Processes>(), scene::LiveScene(std::move(loaded->script)), scene_);
   }
   float height() const { return scene_.objects.at(0).world_from_model[3].z; }
   Process& bells() const { return *clock_->find("bells"); }

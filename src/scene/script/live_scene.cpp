@@ -137,7 +137,7 @@ Status LiveScene::hold(const Node& node, const std::string& attribute, const std
   if (!value) return value.errors();
   held_[&node][attribute] = *value;
   set(node, attribute, *std::move(value));
-  return Done{};
+  return Ok{};
 }
 
 bool LiveScene::receive(const Node& node, const Message& message) {
@@ -203,7 +203,7 @@ Status LiveScene::choose(Scene& scene, const std::string& wanted) {
     for (const auto& [attribute, value] : values) set(*node, attribute, value);
   settings_.clear();  // all of the scenario, or nothing
   if (Errors errors = refresh(scene); !errors.empty()) return errors;
-  return Done{};
+  return Ok{};
 }
 
 Status LiveScene::prepare_scenarios(Scene& scene) {

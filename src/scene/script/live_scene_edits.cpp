@@ -92,7 +92,7 @@ Status LiveScene::check_names(const Nodes& nodes) const {
       }
     });
   if (!errors.empty()) return errors;
-  return Done{};
+  return Ok{};
 }
 
 /// Checks that nodes may stand in this place, and may come and go while the scene runs.
@@ -113,7 +113,7 @@ Status LiveScene::check_place(const Nodes& nodes, const Node* parent) const {
           "a {} is laid out once, when the scene is loaded: change the script and open the scene again",
           fixed->schema->type);
   }
-  return Done{};
+  return Ok{};
 }
 
 Status LiveScene::check_unused(const Node& node) const {
@@ -133,7 +133,7 @@ Status LiveScene::check_unused(const Node& node) const {
         for (const NodeAttribute& attribute : *attributes)
           if (refers_to(attribute, names)) user = &each;
     });
-  if (!user) return Done{};
+  if (!user) return Ok{};
   const bool is_named = user->schema->find("name") && user->gives("name");
   return error_at(user->where, "a {}{} refers to what is to be removed; change or remove that first",
                   user->schema->type, is_named ? fmt::format(" (\"{}\")", user->text("name")) : "");
@@ -230,7 +230,7 @@ Errors LiveScene::build_new(Scene& scene, const Node* parent, const std::set<con
 
 Status LiveScene::insert(Scene& scene, Nodes& nodes, const NodePosition& at) {
   assert(!at.before || parent_of(*at.before) == at.parent);
-  if (nodes.empty()) return Done{};
+  if (nodes.empty()) return Ok{};
   if (Status status = check_place(nodes, at.parent); !status) return status;
   if (Status status = check_names(nodes); !status) return status;
   const auto is_part = [&](const Node& node) {
@@ -261,7 +261,7 @@ Status LiveScene::insert(Scene& scene, Nodes& nodes, const NodePosition& at) {
     return errors;
   }
   follow_edit(scene);
-  return Done{};
+  return Ok{};
 }
 
 Result<const Node*> LiveScene::insert(Scene& scene, Node node, const NodePosition& at) {
@@ -334,7 +334,7 @@ Status LiveScene::remove(Scene& scene, const Node& node) {
       return errors;
     }
   follow_edit(scene);
-  return Done{};
+  return Ok{};
 }
 
 Status LiveScene::put_back(Scene& scene, const Node& removed, const NodePosition& at) {
@@ -351,7 +351,7 @@ Status LiveScene::rename(Scene& scene, const Node& node, const std::string& name
   const AttributeSchema* attribute = node.schema->find("name");
   if (!attribute) return error_at(node.where, "a {} has no name", node.schema->type);
   const std::string before = node.text("name");
-  if (name == before) return Done{};
+  if (name == before) return Ok{};
   if (name.empty()) return error_at(node.where, "the name is empty; give one");
   if (find(name)) return error_at(node.where, "the name \"{}\" is taken; names are unique in a scene", name);
   if (node.schema->is_laid_out_once || attribute->is_kept)
@@ -376,14 +376,14 @@ Status LiveScene::rename(Scene& scene, const Node& node, const std::string& name
   set(node, "name", name);
   if (Errors errors = refresh(scene); !errors.empty()) return errors;
   follow_edit(scene);
-  return Done{};
+  return Ok{};
 }
 
 Status LiveScene::move(Scene& scene, const Node& node, const NodePosition& to) {
   const Node* parent = parent_of(node);
   for (const Node* around = to.parent; around; around = parent_of(*around))
     if (around == &node) return error_at(node.where, "a {} cannot stand in itself", node.schema->type);
-  if (to.before == &node) return Done{};
+  if (to.before == &node) return Ok{};
   if (to.parent == parent) {
     Nodes& beside = nodes_beside(parent);
     const auto at = [&](const Node* wanted) {
@@ -392,7 +392,7 @@ Status LiveScene::move(Scene& scene, const Node& node, const NodePosition& to) {
     beside.splice(at(to.before), beside, at(&node));
     renumber(scene);
     follow_edit(scene);
-    return Done{};
+    return Ok{};
   }
   const NodePosition from{parent, next_of(node)};
   Nodes taken;

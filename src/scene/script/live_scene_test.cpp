@@ -9,7 +9,7 @@
 #include "life/traffic/demand.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/attribute.h"
-#include "scene/script/test_house.h"
+#include "scene/script/test_registries.h"
 #include "scene/script/test_script.h"
 
 namespace parvis::scene {
@@ -17,7 +17,7 @@ namespace {
 
 class LiveSceneTest : public ScriptTest<> {
  protected:
-  LiveSceneTest() : ScriptTest(test_house()) {
+  LiveSceneTest() : ScriptTest(test_registries()) {
     for (const char* name : {"small.glb", "large.glb"})
       EXPECT_TRUE(write_gltf(folder_.path() / name, *model_of(box(glm::vec3(0.0f), glm::vec3(1.0f)), {})));
   }

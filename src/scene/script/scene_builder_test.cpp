@@ -104,8 +104,9 @@ TEST_F(SceneBuilderTest, ANodeStandsInAnotherRoomsNodeWhereThatRoomAllowsIt) {
   ASSERT_FALSE(refused);
   EXPECT_NE(to_string(refused.errors()).find("camera does not stand in fountain, which takes jet"),
             std::string::npos);
-  house_.get<NodeRegistry>().allow("camera", "fountain");
-  EXPECT_EQ(house_.get<NodeRegistry>().children_of("fountain"), (std::vector<std::string>{"camera", "jet"}));
+  registries_.get<NodeRegistry>().allow("camera", "fountain");
+  EXPECT_EQ(registries_.get<NodeRegistry>().children_of("fountain"),
+            (std::vector<std::string>{"camera", "jet"}));
 }
 
 }  // namespace

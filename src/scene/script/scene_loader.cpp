@@ -31,7 +31,7 @@ Status check_scene(const std::filesystem::path& script, const NodeRegistry& regi
                    std::span<const std::filesystem::path> data_folders) {
   const Result<Nodes> nodes = checked_nodes(script, registry, data_folders);
   if (!nodes) return nodes.errors();
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis::scene

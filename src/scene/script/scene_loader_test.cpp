@@ -6,7 +6,7 @@
 #include "life/traffic/demand.h"
 #include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
-#include "scene/script/test_house.h"
+#include "scene/script/test_registries.h"
 #include "scene/script/test_script.h"
 #include "scene/script/thesis_examples.h"
 
@@ -20,18 +20,18 @@ class SceneLoader : public ScriptTest<> {
  protected:
   SceneLoader() : ScriptTest(house_with_print()) {}
 
-  const NodeRegistry& registry_ = house_.get<NodeRegistry>();
+  const NodeRegistry& registry_ = registries_.get<NodeRegistry>();
 
  private:
   /// Those of a scene, and a node with attributes of further types.
-  static House house_with_print() {
-    House house = test_house();
-    NodeRegistry& registry = house.get<NodeRegistry>();
+  static Registries house_with_print() {
+    Registries registries = test_registries();
+    NodeRegistry& registry = registries.get<NodeRegistry>();
     registry.add({.type = "print",
                   .attributes = {choice("paper", "", {"plain", "glossy"}),
                                  integer("resolution", "").in("pixels").between(8, 4096)}},
                  [](const Node&, SceneBuilder&) {});
-    return house;
+    return registries;
   }
 };
 

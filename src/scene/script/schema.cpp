@@ -347,7 +347,7 @@ Status check_value(const AttributeSchema& schema, const AttributeValue& value) {
   else if (const auto* text = std::get_if<std::string>(&value); text && schema.type == AttributeType::choice)
     is_right = std::ranges::find(schema.choices, *text) != schema.choices.end();
   if (!is_right) return mismatch(schema, written_value(schema, value), {});
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace parvis::scene

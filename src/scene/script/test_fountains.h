@@ -2,7 +2,7 @@
 // the scene. Nothing else knows them.
 #pragma once
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "room_list.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/attribute.h"
@@ -95,8 +95,8 @@ inline void build_fountain(const Node& node, SceneBuilder& builder) {
 }
 
 /// Adds the nodes and steps of this file.
-inline void furnish_fountains(House& house) {
-  NodeRegistry& registry = house.get<NodeRegistry>();
+inline void register_fountains(Registries& registries) {
+  NodeRegistry& registry = registries.get<NodeRegistry>();
   registry.add(fountain_schema(), build_fountain);
   registry.add_part(jet_schema());
   registry.add_finish_step([](SceneBuilder& builder) {
@@ -111,7 +111,7 @@ inline void furnish_fountains(House& house) {
 /// Loads scripts that may hold fountains.
 class FountainTest : public ScriptTest<> {
  protected:
-  FountainTest() { script::furnish(house_), furnish_fountains(house_); }
+  FountainTest() { script::register_room(registries_), register_fountains(registries_); }
 
   void load(const std::string& script) {
     Result<LoadedScene> loaded = ScriptTest::load(script);

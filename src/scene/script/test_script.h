@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "base/house.h"
+#include "base/registries.h"
 #include "base/test_folder.h"
 #include "scene/script/scene_loader.h"
 
@@ -15,10 +15,10 @@ namespace parvis::scene {
 template <class Base = testing::Test>
 class ScriptTest : public Base {
  protected:
-  explicit ScriptTest(House house = {}) : house_(std::move(house)) {}
+  explicit ScriptTest(Registries registries = {}) : registries_(std::move(registries)) {}
 
   Result<LoadedScene> load(const std::string& script) const {
-    return load_scene(folder_.write("scene.xp", script), house_.get<NodeRegistry>(), data_folders_);
+    return load_scene(folder_.write("scene.xp", script), registries_.get<NodeRegistry>(), data_folders_);
   }
   /// Empty where the script cannot be loaded, which fails the test.
   Scene scene_of(const std::string& script) const {
@@ -43,7 +43,7 @@ class ScriptTest : public Base {
   }
 
   TestFolder folder_;
-  House house_;
+  Registries registries_;
   std::vector<std::filesystem::path> data_folders_;  ///< that scripts may read from, too
 };
 

@@ -5,12 +5,12 @@
 #include "scene/script/node_registry.h"
 #include "scene/script/script_format.h"
 #include "scene/script/script_reader.h"
-#include "scene/script/test_house.h"
+#include "scene/script/test_registries.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace parvis::scene;
-  static const parvis::House house = test_house();
-  const NodeRegistry& registry = house.get<NodeRegistry>();
+  static const parvis::Registries registries = test_registries();
+  const NodeRegistry& registry = registries.get<NodeRegistry>();
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const auto tree = parse_script_file(text, "fuzz.xp");
   if (!tree) return 0;

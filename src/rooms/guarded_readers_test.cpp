@@ -15,12 +15,12 @@
 #include "base/process_limits.h"
 #include "base/test_folder.h"
 #include "formats/readers/readers.h"
-#include "house/rooms.h"
+#include "rooms/rooms.h"
 
-namespace parvis::house {
+namespace parvis::rooms {
 namespace {
 
-const formats::Readers& readers() { return all_rooms().get<formats::Readers>(); }
+const formats::Readers& readers() { return all_registries().get<formats::Readers>(); }
 
 /// The first bytes of the files of each kind.
 const std::map<std::string, std::string> fronts{{".3ds", "MM"},
@@ -64,7 +64,7 @@ std::vector<std::string> registered_kinds(const TestFolder& folder) {
 
 Status crash(std::string_view, IsolatedOutput&) {
   raise(SIGSEGV);
-  return Done{};
+  return Ok{};
 }
 Status hang(std::string_view, IsolatedOutput&) {
   for (;;) pause();
@@ -79,7 +79,7 @@ Status open_outside(std::string_view, IsolatedOutput&) {
 /// Bytes that are no model, no map and no picture.
 Status return_garbage(std::string_view, IsolatedOutput& output) {
   std::ranges::fill(output.allocate(1000), std::byte{0xa5});
-  return Done{};
+  return Ok{};
 }
 
 constexpr double max_seconds = 0.1;
@@ -135,4 +135,4 @@ TEST(GuardedReaders, OpenNoFileOutsideOfTheirFolder) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::rooms

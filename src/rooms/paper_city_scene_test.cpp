@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
 #include "formats/gltf/test_validator.h"
-#include "house/rooms.h"
 #include "life/traffic/demand.h"
 #include "places/paper_city/paper_city.h"
 #include "places/paper_city/paper_script.h"
+#include "rooms/rooms.h"
 #include "stage/stage.h"
 
-namespace parvis::house {
+namespace parvis::rooms {
 namespace {
 namespace fs = std::filesystem;
 using namespace city;
@@ -41,4 +41,4 @@ TEST(PaperCity, IsASceneOfThePapersFigures) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::rooms

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "base/test_data.h"
-#include "house/rooms.h"
 #include "land/heights/ground_raster.h"
 #include "life/traffic/traffic.h"
+#include "rooms/rooms.h"
 #include "scene/script/scene_loader.h"
 #include "stage/stage.h"
 
-namespace parvis::house {
+namespace parvis::rooms {
 namespace {
 
 constexpr float near_m = 12.0f;  // of lanes, in which houses matter
@@ -87,4 +87,4 @@ TEST(RealScenes, NobodyRunsIntoAHouseInDelft) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::rooms

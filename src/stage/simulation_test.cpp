@@ -1,11 +1,11 @@
-// What a play's time does: the same from the same script, at any frame rate. No OpenGL.
+// What a simulation's time does: the same from the same script, at any frame rate. No OpenGL.
 #include <gtest/gtest.h>
 
 #include "base/test_folder.h"
-#include "house/rooms.h"
+#include "rooms/rooms.h"
 #include "stage/stage.h"
 
-namespace parvis::house {
+namespace parvis::stage {
 namespace {
 
 /// A box 4.4 m long as a car, x forward.
@@ -29,18 +29,19 @@ class PlayTest : public testing::Test {
   void SetUp() override { folder_.write("car.obj", box_car); }
 
   /// The scene of that seed after `frames` of `frame_s`.
-  Play played(int seed, int frames, double frame_s) {
-    Result<Play> play = open_play(all_rooms(), folder_.write("scene.xp", script(seed)), {});
-    EXPECT_TRUE(play) << to_string(play.errors());
-    for (int i = 0; i < frames; ++i) play->advance(frame_s);
-    return *std::move(play);
+  Simulation played(int seed, int frames, double frame_s) {
+    Result<Simulation> simulation =
+        open_simulation(rooms::all_registries(), folder_.write("scene.xp", script(seed)), {});
+    EXPECT_TRUE(simulation) << to_string(simulation.errors());
+    for (int i = 0; i < frames; ++i) simulation->advance(frame_s);
+    return *std::move(simulation);
   }
 
   TestFolder folder_;
 };
 
 /// The farthest that an object stands from where it stands in another play.
-float farthest(const Play& a, const Play& b) {
+float farthest(const Simulation& a, const Simulation& b) {
   float result = 0.0f;
   EXPECT_EQ(a.scene.objects.size(), b.scene.objects.size());
   for (std::size_t i = 0; i < a.scene.objects.size(); ++i)
@@ -50,16 +51,16 @@ float farthest(const Play& a, const Play& b) {
 }
 
 TEST_F(PlayTest, IsTheSameWhenItIsPlayedAgain) {
-  const Play first = played(3, 96, 1.0 / 24.0), second = played(3, 96, 1.0 / 24.0);
+  const Simulation first = played(3, 96, 1.0 / 24.0), second = played(3, 96, 1.0 / 24.0);
   ASSERT_EQ(first.scene.objects.size(), 7u);  // the tram and six vehicles
   EXPECT_EQ(farthest(first, second), 0.0f);
   EXPECT_GT(farthest(first, played(3, 95, 1.0 / 24.0)), 0.1f) << "a frame more is another moment";
   EXPECT_GT(farthest(first, played(4, 96, 1.0 / 24.0)), 1.0f) << "another seed is another traffic";
 }
 
-std::vector<scene::Object> vehicles_of(const Play& play) {
+std::vector<scene::Object> vehicles_of(const Simulation& simulation) {
   std::vector<scene::Object> vehicles;
-  for (const scene::Object& object : play.scene.objects)
+  for (const scene::Object& object : simulation.scene.objects)
     if (object.name.starts_with("vehicle ")) vehicles.push_back(object);
   return vehicles;
 }
@@ -84,13 +85,13 @@ TEST_F(PlayTest, PavingLeavesEveryVehicleInItsPlace) {
   for (const std::string ground : {"", "terrain_plane()\n", "model(file=\"hill.obj\", up=z)\n"})
     for (const double seconds : {0.5, 20.0}) {
       const auto played = [&](const std::string& paving) {
-        Result<Play> play =
-            open_play(all_rooms(), folder_.write("scene.xp", ground + script(3) + paving), {});
-        EXPECT_TRUE(play) << to_string(play.errors());
-        play->advance(seconds);
-        return *std::move(play);
+        Result<Simulation> simulation = open_simulation(
+            rooms::all_registries(), folder_.write("scene.xp", ground + script(3) + paving), {});
+        EXPECT_TRUE(simulation) << to_string(simulation.errors());
+        simulation->advance(seconds);
+        return *std::move(simulation);
       };
-      const Play bare = played(""), paved = played("paving()\n");
+      const Simulation bare = played(""), paved = played("paving()\n");
       const std::vector<scene::Object> before = vehicles_of(bare), after = vehicles_of(paved);
       ASSERT_EQ(before.size(), 6u);
       ASSERT_EQ(after.size(), before.size());
@@ -109,24 +110,24 @@ TEST_F(PlayTest, PavingLeavesEveryVehicleInItsPlace) {
 }
 
 TEST_F(PlayTest, IsTheSameAtAnyFrameRate) {
-  const Play slow = played(3, 40, 0.1);
+  const Simulation slow = played(3, 40, 0.1);
   for (const int frames_per_second : {24, 25, 60, 90}) {
-    const Play other = played(3, 4 * frames_per_second, 1.0 / frames_per_second);
+    const Simulation other = played(3, 4 * frames_per_second, 1.0 / frames_per_second);
     // The simulation's steps are the same; a frame shows a place between two of them, in float.
     EXPECT_LT(farthest(slow, other), 2e-3f) << frames_per_second << " frames per second";
   }
 }
 
 TEST_F(PlayTest, MovesWhatAPathMoves) {
-  const Play play = played(3, 48, 1.0 / 24.0);
-  EXPECT_NEAR(play.scene.objects[0].world_from_model[3].y, 9.0f, 0.1f);
-  EXPECT_NEAR(play.scene.objects[0].world_from_model[3].x, -20.0f, 0.5f);  // a quarter of its way
+  const Simulation simulation = played(3, 48, 1.0 / 24.0);
+  EXPECT_NEAR(simulation.scene.objects[0].world_from_model[3].y, 9.0f, 0.1f);
+  EXPECT_NEAR(simulation.scene.objects[0].world_from_model[3].x, -20.0f, 0.5f);  // a quarter of its way
 }
 
 TEST_F(PlayTest, CamerasStandOrFollow) {
-  const Play early = played(3, 1, 0.1), late = played(3, 40, 0.1);
-  const auto eye = [](const Play& play, const std::string& name) {
-    const Result<Camera> camera = play.camera(name);
+  const Simulation early = played(3, 1, 0.1), late = played(3, 40, 0.1);
+  const auto eye = [](const Simulation& simulation, const std::string& name) {
+    const Result<Camera> camera = simulation.camera(name);
     EXPECT_TRUE(camera) << to_string(camera.errors());
     return camera->position_in_world();
   };
@@ -144,23 +145,23 @@ TEST_F(PlayTest, TheMethodOfTheCommandLineHoldsInAScenarioThatNamesAnother) {
   for (const char* own : {"reflection(method=none)\n", ""}) {
     const std::string names_another =
         *own ? "override(of=\"%reflection\", method=box_projected_probe)" : "group() { camera(name=inside) }";
-    Result<Play> play =
-        open_play(all_rooms(),
-                  folder_.write("scene.xp",
-                                own + ("camera(name=eye)\nscenario(name=other) { " + names_another + " }\n")),
-                  {});
-    ASSERT_TRUE(play) << to_string(play.errors());
-    scene::LiveScene& live = play->live();
+    Result<Simulation> simulation = open_simulation(
+        rooms::all_registries(),
+        folder_.write("scene.xp",
+                      own + ("camera(name=eye)\nscenario(name=other) { " + names_another + " }\n")),
+        {});
+    ASSERT_TRUE(simulation) << to_string(simulation.errors());
+    scene::LiveScene& live = simulation->live();
     const scene::Node& reflection = live.unique_node("reflection");
     const Status unknown = live.hold(reflection, "method", "mirrors");
     ASSERT_FALSE(unknown);
     EXPECT_NE(to_string(unknown.errors()).find("shared_cube_map"), std::string::npos) << "names the methods";
     ASSERT_TRUE(live.hold(reflection, "method", "shared_cube_map"));
-    ASSERT_TRUE(live.choose(play->scene, "other"));
+    ASSERT_TRUE(live.choose(simulation->scene, "other"));
     EXPECT_EQ(reflection.text("method"), "shared_cube_map");
-    EXPECT_EQ(methods::settings(play->scene).method, "shared_cube_map");
+    EXPECT_EQ(methods::settings(simulation->scene).method, "shared_cube_map");
   }
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::stage

@@ -6,10 +6,10 @@
 
 #include "base/test_folder.h"
 #include "graphics/gl/test_context.h"
-#include "house/rooms.h"
+#include "rooms/rooms.h"
 #include "stage/stage.h"
 
-namespace parvis::house {
+namespace parvis::rooms {
 namespace {
 
 class OddPlacesTest : public gl::ContextTest {};
@@ -40,10 +40,11 @@ class Place {
     folder_.write(name + ".obj", obj_of(corners));
   }
 
-  std::unique_ptr<Stage> stage() const {
-    Result<Play> play = open_play(all_rooms(), folder_.write("scene.xp", script_), {});
-    EXPECT_TRUE(play) << to_string(play.errors());
-    Result<std::unique_ptr<Stage>> stage = Stage::create(*std::move(play));
+  std::unique_ptr<stage::Stage> stage() const {
+    Result<stage::Simulation> simulation =
+        stage::open_simulation(all_registries(), folder_.write("scene.xp", script_), {});
+    EXPECT_TRUE(simulation) << to_string(simulation.errors());
+    Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(*std::move(simulation));
     EXPECT_TRUE(stage) << to_string(stage.errors());
     return *std::move(stage);
   }
@@ -54,12 +55,12 @@ class Place {
 };
 
 /// The pixels in the middle of the mirror, by a method that begins with this frame.
-std::vector<glm::ivec3> mirrored(Stage& stage, const std::string& method) {
+std::vector<glm::ivec3> mirrored(stage::Stage& stage, const std::string& method) {
   methods::Settings settings = methods::settings(stage.scene());
   settings.method = method;
   const Status status = stage.set_reflection(settings);
   EXPECT_TRUE(status) << to_string(status.errors());
-  stage.play().settle();
+  stage.simulation().settle();
   stage.draw(*stage.camera("eye"), 64, 48);
   const Image8 picture = stage.picture();
   std::vector<glm::ivec3> pixels;
@@ -72,7 +73,7 @@ std::vector<glm::ivec3> mirrored(Stage& stage, const std::string& method) {
 }
 
 void expect_light(const Place& place) {
-  const std::unique_ptr<Stage> stage = place.stage();
+  const std::unique_ptr<stage::Stage> stage = place.stage();
   const std::array methods{"multiple_environment_maps", "local_environment_maps", "simple_blend"};
   std::vector<std::vector<glm::ivec3>> first;
   for (const char* method : methods) {
@@ -104,4 +105,4 @@ TEST_F(OddPlacesTest, CarsWithoutArea) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::rooms

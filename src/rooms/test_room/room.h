@@ -2,11 +2,11 @@
 // Balloons: mirror balls that rise when a message says so, a reflection method and a bake step.
 #pragma once
 
-#include "base/house.h"
+#include "base/registries.h"
 
 namespace parvis::test_room {
 
-/// Adds all of it to the house's registries.
-void furnish(House& house);
+/// Adds all of it to the registries.
+void register_room(Registries& registries);
 
 }  // namespace parvis::test_room

@@ -1,5 +1,5 @@
 // What the registries of all rooms must agree on.
-#include "house/rooms.h"
+#include "rooms/rooms.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 
 #include "graphics/render/bake_steps.h"
 
-namespace parvis::house {
+namespace parvis::rooms {
 namespace {
 
 TEST(Rooms, MethodsNameBakeStepsThatThereAre) {
-  const std::vector<render::BakeStep>& steps = all_rooms().get<render::BakeSteps>().all();
+  const std::vector<render::BakeStep>& steps = all_registries().get<render::BakeSteps>().all();
   ASSERT_GE(steps.size(), 2u);
   int named = 0;
   for (const methods::Method& method : method_registry().all())
@@ -32,4 +32,4 @@ TEST(Rooms, ASceneOfVirtualObjectsReadsNoReferenceMaps) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::rooms

@@ -1,9 +1,9 @@
-#include "house/test_room/room.h"
+#include "rooms/test_room/room.h"
 
 #include "base/files.h"
 #include "graphics/render/bake_steps.h"
-#include "house/test_room/balloons.h"
 #include "reflections/methods/registry.h"
+#include "rooms/test_room/balloons.h"
 #include "scene/data/test_scene.h"
 #include "scene/script/attribute.h"
 #include "scene/script/scene_builder.h"
@@ -103,11 +103,11 @@ void forget_other_volumes(const scene::Scene& scene, const std::set<fs::path>& k
 
 }  // namespace
 
-void furnish(House& house) {
-  house.get<scene::NodeRegistry>().add(balloon_schema(), build_balloon);
-  house.get<action::Processes>().add([] { return std::make_unique<BalloonProcess>(); });
-  house.get<methods::Registry>().add(glow_method());
-  house.get<render::BakeSteps>().add(
+void register_room(Registries& registries) {
+  registries.get<scene::NodeRegistry>().add(balloon_schema(), build_balloon);
+  registries.get<action::Processes>().add([] { return std::make_unique<BalloonProcess>(); });
+  registries.get<methods::Registry>().add(glow_method());
+  registries.get<render::BakeSteps>().add(
       {.name = "volume of balloons", .run = bake_volume, .forget_others = forget_other_volumes});
 }
 

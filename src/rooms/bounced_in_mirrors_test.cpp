@@ -7,14 +7,14 @@
 #include "graphics/gl/test_context.h"
 #include "graphics/render/light_source.h"
 #include "graphics/render/test_room.h"
-#include "house/rooms.h"
 #include "reflections/methods/frame.h"
 #include "reflections/methods/settings.h"
 #include "reflections/reference_maps/settings.h"
+#include "rooms/rooms.h"
 #include "scene/data/bounced_settings.h"
 #include "scene/data/test_scene.h"
 
-namespace parvis::house {
+namespace parvis::rooms {
 namespace {
 
 constexpr int width = 96, height = 72;
@@ -51,7 +51,7 @@ Shown red_in_the_mirror(const std::string& method, bool is_bounced) {
   methods::settings(scene) = {method, 64, false};
   methods::own_settings<reference_maps::MapSettings>(scene).max_maps = 4;
   EXPECT_TRUE(method_registry().prepare(scene));
-  auto renderer = render::Renderer::create(scene, {}, all_rooms().get<render::Lights>().make);
+  auto renderer = render::Renderer::create(scene, {}, all_registries().get<render::Lights>().make);
   EXPECT_TRUE(renderer) << to_string(renderer.errors());
   const auto reflections = method_registry().make(scene, **renderer);
   EXPECT_TRUE(reflections) << to_string(reflections.errors());
@@ -93,4 +93,4 @@ TEST_F(BouncedInMirrors, EveryMethodShowsWhatRaysShow) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::rooms

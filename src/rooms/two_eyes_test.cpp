@@ -4,10 +4,10 @@
 #include <array>
 
 #include "graphics/gl/test_context.h"
-#include "house/rooms.h"
 #include "reflections/reference_maps/test_square.h"
+#include "rooms/rooms.h"
 
-namespace parvis::house {
+namespace parvis::rooms {
 namespace {
 
 using render::EyeView;
@@ -70,4 +70,4 @@ TEST_F(TwoEyesTest, EveryMethodDrawsEachEyeAsAlone) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::rooms

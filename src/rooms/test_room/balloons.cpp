@@ -1,4 +1,4 @@
-#include "house/test_room/balloons.h"
+#include "rooms/test_room/balloons.h"
 
 namespace parvis::test_room {
 

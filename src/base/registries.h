@@ -1,6 +1,7 @@
 // What all rooms bring to a program: node types, processes, drawables, reflection methods, readers, bake
 // steps, benches. Each kind of contribution is a registry, a class of the lowest room that knows the kind; a
-// room adds to them in its one function `void furnish(House&)`, and house/rooms.cpp lists those functions.
+// room adds to them in its one function `void register_room(Registries&)`, and rooms/rooms.cpp lists those
+// functions.
 #pragma once
 
 #include <memory>
@@ -10,7 +11,7 @@
 namespace parvis {
 
 /// Registries by their type. Owns them; they stay where they are in memory.
-class House {
+class Registries {
  public:
   /// The registry of this type, empty when first asked for. Registry must be default-constructible.
   template <class Registry>

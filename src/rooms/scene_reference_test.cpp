@@ -6,12 +6,12 @@
 
 #include "base/files.h"
 #include "base/test_data.h"
-#include "house/rooms.h"
+#include "rooms/rooms.h"
 #include "scene/script/schema_json.h"
 #include "scene/script/script_reader.h"
 #include "stage/stage.h"
 
-namespace parvis::house {
+namespace parvis::rooms {
 namespace {
 
 using namespace scene;  // all of it is about this room
@@ -89,4 +89,4 @@ TEST(NodeRegistry, DefaultsAreValuesOfTheirType) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::rooms

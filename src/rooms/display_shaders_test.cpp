@@ -7,7 +7,7 @@
 #include "graphics/gl/shader_files.h"
 #include "graphics/gl/test_context.h"
 
-namespace parvis::house {
+namespace parvis::rooms {
 namespace {
 
 using namespace gl;
@@ -62,4 +62,4 @@ TEST_F(DisplayShadersTest, EveryDisplayShaderCompilesInBothDialects) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::rooms

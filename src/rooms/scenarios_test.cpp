@@ -4,11 +4,11 @@
 #include "base/files.h"
 #include "base/test_folder.h"
 #include "graphics/gl/context.h"
-#include "house/rooms.h"
 #include "places/paper_city/paper_city.h"
+#include "rooms/rooms.h"
 #include "stage/stage.h"
 
-namespace parvis::house {
+namespace parvis::rooms {
 namespace {
 
 constexpr int scenario_width = 320, scenario_height = 180;
@@ -36,10 +36,11 @@ TEST(Scenarios, ThereAndBackGivesTheSamePictureOfThePapersCity) {
   ASSERT_TRUE(write_file(folder.path() / "project.xp", project));
   const Result<gl::Context> context = gl::Context::create_headless();
   ASSERT_TRUE(context) << to_string(context.errors());
-  Result<house::Play> play = house::open_play(house::all_rooms(), folder.path() / "project.xp", {});
-  ASSERT_TRUE(play) << to_string(play.errors());
-  play->advance(2.0);
-  Result<std::unique_ptr<house::Stage>> stage = house::Stage::create(*std::move(play));
+  Result<stage::Simulation> simulation =
+      stage::open_simulation(rooms::all_registries(), folder.path() / "project.xp", {});
+  ASSERT_TRUE(simulation) << to_string(simulation.errors());
+  simulation->advance(2.0);
+  Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(*std::move(simulation));
   ASSERT_TRUE(stage) << to_string(stage.errors());
   const Result<Camera> camera = (*stage)->camera("street");
   ASSERT_TRUE(camera) << to_string(camera.errors());
@@ -58,4 +59,4 @@ TEST(Scenarios, ThereAndBackGivesTheSamePictureOfThePapersCity) {
 }
 
 }  // namespace
-}  // namespace parvis::house
+}  // namespace parvis::rooms
