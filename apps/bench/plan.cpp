@@ -148,7 +148,7 @@ void measure_replay(const BenchSetup& setup, Report& report) {
   const std::filesystem::path script = setup.folder / "replay.xp", journal = setup.folder / "replay.journal";
   must(write_file(script, "camera(name=eye)\n"));
   stage::Simulation simulation = setup.simulation(script);
-  Table table{play};
+  Table table{simulation};
   must(table.session.keep_journal(journal));
   const std::string empty = table.session.script();
   Random random(7);
@@ -182,7 +182,7 @@ void measure_kills(const BenchSetup& setup, Report& report) {
     const pid_t child = fork();
     if (child == 0) {
       stage::Simulation simulation = setup.simulation(script);
-      Table table{play};
+      Table table{simulation};
       if (!table.session.keep_journal(journal)) _exit(1);
       for (int i = 0;; ++i)
         if (!table.session.run(fmt::format("insert bin {},{}", i % 100, i / 100)) ||
@@ -199,7 +199,7 @@ void measure_kills(const BenchSetup& setup, Report& report) {
     close(pipes[0]);
     waitpid(child, nullptr, 0);
     stage::Simulation simulation = setup.simulation(script);
-    Table table{play};
+    Table table{simulation};
     lost_without_journal += acknowledged - int(table.session.objects().size());
     must(table.session.keep_journal(journal));
     lost += std::max(0, acknowledged - int(table.session.objects().size()));
