@@ -239,6 +239,9 @@ void PlanningBars::draw_catalogue(float width) {
   ImGui::BeginChild("kinds", {0.0f, 0.0f}, false, ImGuiWindowFlags_HorizontalScrollbar);
   const bool is_french = planning_.word("Width") != "Width";
   bool is_first = true;
+  // Kinds keep their places while their pictures are drawn.
+  const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  const ImVec2 with_frame(side + 2.0f * padding.x, side + 2.0f * padding.y);
   for (const design::Kind& kind : design::kinds_of(planning_.visit().scene())) {
     const std::string& label = is_french ? kind.label_fr : kind.label;
     if (tab_ != "all" && kind.tab != tab_) continue;
@@ -253,13 +256,13 @@ void PlanningBars::draw_catalogue(float width) {
     // ImGui takes names of textures as pointers. NOLINTNEXTLINE(performance-no-int-to-ptr)
     const auto texture = reinterpret_cast<ImTextureID>(std::uintptr_t(pictures_.of(kind.name)));
     const bool is_pressed =
-        texture ? ImGui::ImageButton(texture, {side, side}) : ImGui::Button("...", {side, side});
+        texture ? ImGui::ImageButton(texture, {side, side}) : ImGui::Button("...", with_frame);
     places_["kind " + kind.name] = {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()};
     if (ImGui::IsItemHovered())
       ImGui::SetTooltip("%s   %g x %g x %g m", label.c_str(), kind.size_m.x, kind.size_m.y, kind.size_m.z);
     ImGui::PopID();
     if (is_chosen) ImGui::PopStyleColor();
-    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + side);
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + with_frame.x);
     ImGui::TextColored(is_chosen ? accent : dim_text, "%s", label.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndGroup();

@@ -76,9 +76,10 @@ TEST_F(PlanningTest, WhatHangsOnThePointerLooksAsItWillStand) {
   planning_->tool()->settle();
   ASSERT_FALSE(planning_->holds_things());
   const Image8 after = whole();
-  // Without the shade that it casts onto itself and takes from the sky: .046.
+  // The part of the sky that it hides from itself is missing until it stands: .040; without its own shadow
+  // .046.
   const double as_held = flip_over(before, after, "kiosk_1");
-  EXPECT_LT(as_held, 0.06);
+  EXPECT_LT(as_held, 0.043);
   planning_->tool()->choose_kind("kiosk");
   planning_->tool()->point(at({1.2f, -4, 0}));
   EXPECT_GT(flip_over(held(), after, "kiosk_1"), 1.5 * as_held) << "the control: 20 cm beside it";

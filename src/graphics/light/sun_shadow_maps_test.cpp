@@ -69,5 +69,23 @@ TEST_F(ShadowMapsInMotion, AreThoseOfAFreshRendererAtEachMoment) {
   expect_as_fresh("it is back");
 }
 
+TEST_F(ShadowMapsInMotion, HeldThingsShadeEachOtherUntilTheyAreLetGo) {
+  const auto seeing = renderer();
+  scene::Scene held;
+  add(held, model_of(box({-4, -8, 0}, {4, -3, 0.1f}), matt(glm::vec3(0.5f))));
+  const int plate = add(held, model_of(box({-1, -6, 2}, {1, -5, 2.1f}), matt(glm::vec3(0.5f))));
+  const auto shown = [&](bool has_plate) {
+    held.objects[std::size_t(plate)].is_visible = has_plate;
+    drawn(*seeing);
+    EXPECT_TRUE(seeing->draw_over(held, false));
+    return seeing->read_radiance().pixels;
+  };
+  const std::vector<float> with = shown(true), without = shown(false);
+  long darker = 0;
+  for (std::size_t i = 0; i < with.size(); ++i) darker += with[i] < 0.5f * without[i];
+  EXPECT_GT(darker, 100) << "the plate's shadow on the slab";
+  EXPECT_EQ(drawn(*seeing), drawn(*renderer())) << "nothing of it stays in the maps";
+}
+
 }  // namespace
 }  // namespace parvis::light
