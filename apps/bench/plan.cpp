@@ -143,6 +143,153 @@ void measure_precision(Table& table, Report& report) {
   report.add("plan_precision_mm_to_the_centimetre", rounded_mm);
 }
 
+constexpr const char* two_designs = R"(
+include(file="paper.xp")
+design(name="stone") {
+  placed(kind=bench_stone, name=stone_1, position="9 3 0", heading_deg=180)
+  placed(kind=bench_stone, name=stone_2, position="12 3 0", heading_deg=180)
+  placed(kind=bench_stone, name=stone_3, position="15 3 0", heading_deg=180)
+  placed(kind=umbrella, name=umbrella_1, position="10.5 4.5 0", heading_deg=0)
+  placed(kind=umbrella, name=umbrella_2, position="13.5 4.5 0", heading_deg=0)
+}
+design(name="trees", visible=0) {
+  placed(kind=tree_orange, name=orange_1, position="10 4 0", heading_deg=0)
+  placed(kind=tree_orange, name=orange_2, position="14 4 0", heading_deg=70)
+  placed(kind=bench_wood, name=wood_1, position="12 3 0", heading_deg=180)
+  placed(kind=planter, name=planter_1, position="8 4 0", heading_deg=0)
+  placed(kind=lamp, name=lamp_1, position="16 4 0", heading_deg=0)
+}
+scenario(name="trees") {
+  override(of=stone, visible=0)
+  override(of=trees, visible=1)
+}
+)";
+
+/// Scenarios that show two designs, chosen on a walk whose rate the window holds: from the choice to its
+/// picture.
+void measure_switches(const BenchSetup& setup, Report& report) {
+  must(write_file(setup.city() / "two_designs.xp", two_designs));
+  const auto stage = stage_of(setup.simulation(setup.city() / "two_designs.xp"));
+  int step = 0;
+  const auto walk_ms = [&](bool keeps_rate) {
+    const double ms = milliseconds([&] {
+      stage->simulation().advance(0.1);
+      stage->draw(eye_at({middle.x + 0.14 * (step++ % 40), middle.y, 0.0}), width, height);
+      stage->display(0);
+      glFinish();
+    });
+    if (keeps_rate) stage->follow_clock(ms);
+    return ms;
+  };
+  for (const bool keeps_rate : {true, false}) {
+    stage->hold_rate(keeps_rate ? 10.0 : 0.0);
+    for (int i = 0; i < (keeps_rate ? 40 : 3); ++i) walk_ms(keeps_rate);
+    std::vector<double> switches, frames;
+    for (int i = 0; i < (setup.is_quick ? 6 : 24); ++i) {
+      const double choice_ms = milliseconds([&] { must(stage->choose_scenario(i % 2 == 0 ? "trees" : "")); });
+      switches.push_back(choice_ms + walk_ms(keeps_rate));
+      for (int k = 0; k < 3; ++k) frames.push_back(walk_ms(keeps_rate));
+    }
+    if (!keeps_rate) {
+      report.add("scenario_switch_ms_of_whole_pictures", median(switches));
+    } else {
+      report.add("scenario_switch_ms", median(switches));
+      report.add("scenario_switch_ms_beyond_a_frame", median(switches).value - median(frames).value);
+    }
+  }
+}
+
+struct SceneEdge {
+  glm::vec3 from, to;
+};
+
+/// Boxes of random sizes on a slab, as OBJ, and their edges.
+std::vector<SceneEdge> write_boxes(const std::filesystem::path& file) {
+  Random random(5);
+  std::string obj;
+  std::vector<SceneEdge> edges;
+  int first = 1;
+  for (int i = 0; i < 40; ++i) {
+    const bool is_slab = i == 0;
+    const glm::vec3 low = is_slab
+                              ? glm::vec3(-40, -40, -1)
+                              : glm::vec3(random.uniform(-18.0f, 18.0f), random.uniform(2.0f, 34.0f), 0.0f);
+    const glm::vec3 size = is_slab ? glm::vec3(80, 80, 1)
+                                   : glm::vec3(random.uniform(0.4f, 4.0f), random.uniform(0.4f, 4.0f),
+                                               random.uniform(0.4f, 6.0f));
+    const auto corner = [&](int c) { return low + size * glm::vec3(c & 1, (c >> 1) & 1, c >> 2); };
+    for (int c = 0; c < 8; ++c) obj += fmt::format("v {} {} {}\n", corner(c).x, corner(c).y, corner(c).z);
+    for (const auto& face :
+         {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+      obj +=
+          fmt::format("f {} {} {} {}\n", first + face[0], first + face[1], first + face[2], first + face[3]);
+    first += 8;
+    for (int axis = 0; axis < 3; ++axis)
+      for (int c = 0; c < 8; ++c)
+        if ((c >> axis & 1) == 0) edges.push_back({corner(c), corner(c | 1 << axis)});
+  }
+  must(write_file(file, obj));
+  return edges;
+}
+
+/// How far ink lies from edges that the eye sees, by the ray tracer, and which of these have no ink.
+void measure_sketch(const BenchSetup& setup, Report& report) {
+  const std::vector<SceneEdge> edges = write_boxes(setup.folder / "boxes.obj");
+  const std::filesystem::path script = setup.folder / "boxes.xp";
+  must(write_file(script, "dayLight()\nmodel(name=boxes, file=\"boxes.obj\", up=z)\nrealism(level=0)\n"));
+  const auto stage = stage_of(setup.simulation(script));
+  design::SceneSurfaces surfaces{stage->scene()};
+  double largest_px = 0.0, largest_aside_px = 0.0;
+  long seen = 0, missing = 0;
+  for (const glm::vec3 eye : {glm::vec3(0, -6, 1.7f), glm::vec3(-16, -4, 8), glm::vec3(14, -5, 3)}) {
+    Camera camera;
+    camera.world_from_camera = look_at(eye, {0, 16, 1});
+    stage->draw(camera, width, height);
+    const Image8 sketch = stage->picture();
+    const glm::mat4 clip = camera.clip_from_camera(float(width) / float(height)) * camera.camera_from_world();
+    std::vector<glm::vec2> shown, aside;
+    for (const SceneEdge& edge : edges) {
+      const int steps = int(glm::distance(edge.from, edge.to) / 0.004f);
+      for (int i = 0; i <= steps; ++i) {
+        const glm::vec3 place = glm::mix(edge.from, edge.to, float(i) / float(steps));
+        const auto pixel_of = [&](glm::vec3 p) {
+          const glm::vec4 c = clip * glm::vec4(p, 1.0f);
+          return c.w > 0.1f ? (glm::vec2(c.x, -c.y) / c.w * 0.5f + 0.5f) * glm::vec2(width, height)
+                            : glm::vec2(-1e6f);
+        };
+        const glm::vec2 pixel = pixel_of(place);
+        if (pixel.x < 2 || pixel.y < 2 || pixel.x > width - 3 || pixel.y > height - 3) continue;
+        if (!shown.empty() && glm::distance(shown.back(), pixel) < 0.25f) continue;
+        const auto hit = surfaces.first_along({eye, glm::normalize(place - eye)});
+        if (hit && glm::distance(eye, glm::vec3(hit->position)) < glm::distance(eye, place) - 0.02f) continue;
+        shown.push_back(pixel), aside.push_back(pixel_of(place + glm::vec3(0.05f, 0.0f, 0.05f)));
+      }
+    }
+    const auto is_ink = [&](int x, int y, int level) { return sketch.at(x, y)[0] < level; };
+    const auto nearest_px = [&](const std::vector<glm::vec2>& points, glm::vec2 at) {
+      float nearest = 1e9f;
+      for (const glm::vec2 point : points) nearest = std::min(nearest, glm::distance(point, at));
+      return double(nearest);
+    };
+    for (int y = 2; y < height - 2; ++y)
+      for (int x = 2; x < width - 2; ++x)
+        if (is_ink(x, y, 110)) {  // most of the pixel
+          const glm::vec2 at(float(x) + 0.5f, float(y) + 0.5f);
+          largest_px = std::max(largest_px, nearest_px(shown, at));
+          largest_aside_px = std::max(largest_aside_px, nearest_px(aside, at));
+        }
+    for (const glm::vec2 point : shown) {
+      bool has_ink = false;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) has_ink |= is_ink(int(point.x) + dx, int(point.y) + dy, 150);
+      ++seen, missing += !has_ink;
+    }
+  }
+  report.add("sketch_edge_px", largest_px);
+  report.add("sketch_edge_px_of_boxes_5_cm_aside", largest_aside_px);
+  report.add("sketch_edges_without_ink_percent", 100.0 * double(missing) / double(std::max(seen, 1L)));
+}
+
 /// Undone to nothing, done again, and replayed from the journal: the same scripts.
 void measure_replay(const BenchSetup& setup, Report& report) {
   const std::filesystem::path script = setup.folder / "replay.xp", journal = setup.folder / "replay.journal";
@@ -216,6 +363,8 @@ void measure_plan(const BenchSetup& setup, Report& report) {
   measure_drag(*stage, table, setup.is_quick, report);
   measure_insertion(*stage, table, setup.is_quick, report);
   measure_precision(table, report);
+  measure_switches(setup, report);
+  measure_sketch(setup, report);
 }
 
 void measure_plan_files(const BenchSetup& setup, Report& report) {

@@ -43,12 +43,12 @@ std::string title_of(const scene::Node& scenario) {
 
 }  // namespace
 
-Panel::Panel(const ImguiContext& imgui, std::string title)
+Panel::Panel(const ImguiContext& imgui, std::string title, planner::Language language)
     : imgui_(imgui),
       title_(std::move(title)),
       driver_(gl::driver_name()),
       draws_on_processor_(gl::is_software()),
-      rows_(imgui.fonts()) {}
+      rows_(imgui.fonts(), language) {}
 
 float Panel::width() const {
   return is_open ? std::min(panel_width * imgui_.scale(), largest_share * ImGui::GetIO().DisplaySize.x)
@@ -77,8 +77,8 @@ void Panel::draw_panel(Visit& visit, const FrameStatistics& statistics) {
     const char* const turns_to = std::exchange(turns_to_, nullptr);
     const auto page = [&](const char* name, const auto& draw_page) {
       const bool turns_here = turns_to && std::string_view(name) == turns_to;
-      const bool is_shown =
-          ImGui::BeginTabItem(name, nullptr, turns_here ? ImGuiTabItemFlags_SetSelected : 0);
+      const bool is_shown = ImGui::BeginTabItem((rows_.word(name) + "###" + name).c_str(), nullptr,
+                                                turns_here ? ImGuiTabItemFlags_SetSelected : 0);
       rows_.note_place(name);
       if (!is_shown) return;
       draw_page();
@@ -150,7 +150,7 @@ void Panel::draw_scenarios(Visit& visit) {
   rows_.heading("Scenarios");
   if (scenarios.empty()) return rows_.remark("The scene has none.");
   const std::string now = visit.live().scenario();
-  if (ImGui::RadioButton("As it is", now.empty())) visit.show_scenario("");
+  if (ImGui::RadioButton((rows_.word("As it is") + "###base").c_str(), now.empty())) visit.show_scenario("");
   rows_.note_place("scenario base");
   for (const scene::Node* scenario : scenarios) {
     const std::string name = scenario->text("name");
@@ -263,17 +263,17 @@ void Panel::draw_keys() const {
   ImGui::Begin("keys", nullptr, fixed_window | ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::PopStyleVar();
   ImGui::PushFont(imgui_.fonts().heading);
-  ImGui::TextUnformatted("Keys");
+  ImGui::TextUnformatted(rows_.word("Keys").c_str());
   ImGui::PopFont();
   ImGui::Spacing();
   const float column = 90.0f * imgui_.scale();
   for (const KeyHelp& help : key_help) {
     ImGui::TextColored(accent, "%s", help.keys);
     ImGui::SameLine(column);
-    ImGui::TextUnformatted(help.does);
+    ImGui::TextUnformatted(rows_.word(help.does).c_str());
   }
   ImGui::Spacing();
-  ImGui::TextDisabled("Keys that the scene itself waits for go to the scene.");
+  ImGui::TextDisabled("%s", rows_.word("Keys that the scene itself waits for go to the scene.").c_str());
   ImGui::End();
 }
 
@@ -295,7 +295,7 @@ void Panel::draw_notices(const Visit& visit) const {
     ImGui::PushTextWrapPos(max_width - margin);
     ImGui::PushStyleColor(ImGuiCol_Text,
                           notice.is_error ? error_text : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-    ImGui::TextUnformatted(notice.text.c_str());
+    ImGui::TextUnformatted(rows_.word(notice.text).c_str());
     ImGui::PopStyleColor();
     ImGui::PopTextWrapPos();
     foot -= ImGui::GetWindowSize().y + 0.5f * margin;

@@ -62,7 +62,7 @@ void PanelNodes::choose(const scene::LiveScene& live, const scene::Node& node) {
 
 void PanelNodes::draw(Visit& visit, PanelRows& rows) {
   ImGui::SetNextItemWidth(-FLT_MIN);
-  ImGui::InputTextWithHint("##find", "find by name or kind", &filter_);
+  ImGui::InputTextWithHint("##find", rows.word("find by name or kind").c_str(), &filter_);
   rows.note_place("find");
   const float height = ImGui::GetContentRegionAvail().y;
   ImGui::BeginChild("tree", {0.0f, chosen_ ? share_of_tree * height : 0.0f});

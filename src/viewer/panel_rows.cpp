@@ -20,14 +20,14 @@ void PanelRows::note_place(const std::string& name) {
 void PanelRows::heading(const char* text) {
   ImGui::Dummy({0.0f, 0.3f * ImGui::GetTextLineHeight()});
   ImGui::PushFont(fonts_.heading);
-  ImGui::TextUnformatted(text);
+  ImGui::TextUnformatted(word(text).c_str());
   ImGui::PopFont();
 }
 
 void PanelRows::remark(const std::string& text, const ImVec4& colour) {
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextUnformatted(word(text).c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
 }
@@ -39,9 +39,9 @@ void PanelRows::begin(const std::string& name, const std::string& help) {
   ImGui::AlignTextToFramePadding();
   ImGui::PushClipRect(corner, {corner.x + share_of_names * width, corner.y + 2.0f * ImGui::GetFrameHeight()},
                       true);
-  ImGui::TextUnformatted(name.c_str());
+  ImGui::TextUnformatted(word(name).c_str());
   ImGui::PopClipRect();
-  if (!help.empty() && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help.c_str());
+  if (!help.empty() && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", word(help).c_str());
   ImGui::SameLine(left + share_of_names * width);
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
@@ -49,7 +49,7 @@ void PanelRows::begin(const std::string& name, const std::string& help) {
 void PanelRows::value(const std::string& name, const std::string& text) {
   begin(name, "");
   ImGui::PushStyleColor(ImGuiCol_Text, dim_text);
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextUnformatted(word(text).c_str());
   ImGui::PopStyleColor();
   if (ImGui::IsItemHovered() && ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x)
     ImGui::SetTooltip("%s", text.c_str());
@@ -60,7 +60,7 @@ std::optional<std::size_t> PanelRows::choice(const std::string& name, const std:
                                              const std::string& current, const std::string& help) {
   std::optional<std::size_t> chosen;
   begin(name, help);
-  const bool is_open = ImGui::BeginCombo(("##" + name).c_str(), current.c_str());
+  const bool is_open = ImGui::BeginCombo(("##" + name).c_str(), word(current).c_str());
   note_place(name);
   if (!is_open) return chosen;
   for (std::size_t i = 0; i < choices.size(); ++i) {
@@ -152,7 +152,7 @@ std::optional<std::size_t> PanelRows::buttons(const std::vector<std::string>& na
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (i > 0) ImGui::SameLine(0.0f, spacing);
     if (i == lit) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_Header));
-    if (ImGui::Button(names[i].c_str(), {width, 0.0f})) pressed = i;
+    if (ImGui::Button((word(names[i]) + "###" + names[i]).c_str(), {width, 0.0f})) pressed = i;
     if (i == lit) ImGui::PopStyleColor();
     note_place(names[i]);
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "planning/planner/words.h"
 #include "viewer/node_rows.h"
 #include "viewer/theme.h"
 
@@ -22,8 +23,13 @@ using Places = std::map<std::string, Place>;
 /// Draws rows. Lives longer than a frame: it keeps the number that is being dragged.
 class PanelRows {
  public:
-  /// `fonts` must outlive the rows.
-  explicit PanelRows(const Fonts& fonts) : fonts_(fonts) {}
+  /// `fonts` must outlive the rows. Names, headings, remarks and help are given in English and shown in
+  /// `language`; places keep the English names.
+  explicit PanelRows(const Fonts& fonts, planner::Language language = planner::Language::english)
+      : fonts_(fonts), language_(language) {}
+
+  /// An English word or sentence in the language of the panel.
+  std::string word(std::string_view english) const { return planner::in_language(english, language_); }
 
   /// Rectangles of the widgets drawn since `forget_places`.
   const Places& places() const { return places_; }
@@ -71,6 +77,7 @@ class PanelRows {
 
   Places places_;
   const Fonts& fonts_;
+  planner::Language language_;
   Held held_;
 };
 

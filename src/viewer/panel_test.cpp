@@ -8,6 +8,7 @@
 #include "graphics/render/test_golden.h"
 #include "reflections/methods/registry.h"
 #include "reflections/methods/settings.h"
+#include "viewer/keys.h"
 #include "viewer/test_square.h"
 
 namespace parvis::viewer {
@@ -42,7 +43,7 @@ class PanelTest : public SquareTest {
     put_up(1.0f);
   }
 
-  void put_up(float scale) {
+  void put_up(float scale, planner::Language language = planner::Language::english) {
     panel_.reset();
     imgui_.reset();
     imgui_ = std::make_unique<ImguiContext>(scale);
@@ -52,7 +53,7 @@ class PanelTest : public SquareTest {
     io.KeyMap[ImGuiKey_Enter] = enter_key;
     io.KeyMap[ImGuiKey_Backspace] = backspace_key;
     io.KeyMap[ImGuiKey_A] = a_key;
-    panel_ = std::make_unique<Panel>(*imgui_, "square");
+    panel_ = std::make_unique<Panel>(*imgui_, "square", language);
     panel_->is_open = true;
     for (int i = 0; i < 3; ++i) frame();  // ImGui finds its sizes
   }
@@ -165,6 +166,21 @@ class PanelTest : public SquareTest {
 TEST_F(PanelTest, ThePageOfTheVisitIsGolden) {
   visit_->halt(true);
   expect_golden("panel-visit");
+}
+
+TEST_F(PanelTest, SpeaksFrenchAndKeepsItsPlaces) {
+  put_up(1.0f, planner::Language::french);
+  panel_->shows_keys = true;
+  const std::string french = text();
+  for (const char* word : {"Se déplacer", "À pied", "Lumière", "Scénarios", "Touches"})
+    EXPECT_NE(french.find(word), std::string::npos) << word;
+  for (const char* word : {"Moving", "Light", "Camera", "Keys"})
+    EXPECT_EQ(french.find(word), std::string::npos) << word;
+  for (const KeyHelp& help : key_help)
+    EXPECT_NE(planner::in_language(help.does, planner::Language::french), help.does);
+  panel_->shows_keys = false;
+  click("Fly");
+  EXPECT_EQ(visit_->mode(), Mode::fly);
 }
 
 TEST_F(PanelTest, AScenarioIsSwitchedByAClick) {

@@ -123,7 +123,7 @@ class Frames {
         scale_(scale_of(window)),
         visit_(stage, start, options.pictures),
         imgui_(scale_.interface, scale_.pixels_per_point),
-        panel_(imgui_, options.title),
+        panel_(imgui_, options.title, options.language),
         planning_(visit_, options.language),
         bars_(imgui_, planning_, options.kept_pictures),
         input_(window, visit_, panel_, planning_),

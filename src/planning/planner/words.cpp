@@ -1,7 +1,7 @@
 #include "planning/planner/words.h"
 
-#include <algorithm>
 #include <array>
+#include <unordered_map>
 #include <utility>
 
 namespace parvis::planner {
@@ -82,6 +82,96 @@ constexpr auto french = std::to_array<std::pair<std::string_view, std::string_vi
     {"Space evenly", "Espacer"},
     {"Align", "Aligner"},
     {"All like this", "Tous pareils"},
+    {"Visit", "Visite"},
+    {"Scene", "Scène"},
+    {"Statistics", "Mesures"},
+    {"Picture  P", "Image  P"},
+    {"Keys  F1", "Touches  F1"},
+    {"Close  F2", "Fermer  F2"},
+    {"Moving", "Se déplacer"},
+    {"Walk", "À pied"},
+    {"Fly", "En vol"},
+    {"Follow", "Suivre"},
+    {"none", "aucun"},
+    {"Vehicle", "Véhicule"},
+    {"nothing moves here", "rien ne bouge ici"},
+    {"Camera", "Caméra"},
+    {"the scene names none", "la scène n'en a pas"},
+    {"go to ...", "aller à ..."},
+    {"Tour", "Parcours"},
+    {"the scene has none", "la scène n'en a pas"},
+    {"start ...", "commencer ..."},
+    {"Scenarios", "Scénarios"},
+    {"The scene has none.", "La scène n'en a pas."},
+    {"As it is", "État actuel"},
+    {"Sun from", "Soleil, côté"},
+    {"compass direction of the sun: 0 north, 90 east", "direction du soleil : 0 nord, 90 est"},
+    {"Sun's height", "Soleil, haut."},
+    {"above the horizon", "au-dessus de l'horizon"},
+    {"Day", "Jour"},
+    {"of the year: 80 is about the spring equinox", "de l'année : 80 est l'équinoxe de printemps"},
+    {"Hour", "Heure"},
+    {"by the clock: 14.25 is 14:15", "à l'horloge : 14,25 est 14 h 15"},
+    {"Light", "Lumière"},
+    {"Exposure", "Exposition"},
+    {"how bright the picture is", "clarté de l'image"},
+    {"Realism", "Réalisme"},
+    {"Reflections", "Reflets"},
+    {"Go on", "Reprendre"},
+    {"Halt", "Arrêter"},
+    {"Step 0.1 s", "Avancer 0,1 s"},
+    {"Traffic", "Circulation"},
+    {"Frames", "Images"},
+    {"Mean", "Moyenne"},
+    {"Longest", "La plus longue"},
+    {"Passes on the GPU", "Passes du GPU"},
+    {"None has been timed yet.", "Aucune n'est encore mesurée."},
+    {"This is a software driver, which puts work off: read the times as rough.",
+     "Pilote logiciel, qui diffère le travail : temps approximatifs."},
+    {"Main view", "Vue principale"},
+    {"Triangles", "Triangles"},
+    {"Draws", "Appels"},
+    {"Parts", "Éléments"},
+    {"Driver", "Pilote"},
+    {"Keys", "Touches"},
+    {"Keys that the scene itself waits for go to the scene.",
+     "Les touches que la scène attend vont à la scène."},
+    {"find by name or kind", "chercher un nom ou un type"},
+    {"The scene has no nodes: it was not made by a script.",
+     "La scène n'a pas de nœuds : elle ne vient pas d'un script."},
+    {"No node has such a name or kind.", "Aucun nœud n'a ce nom ou ce type."},
+    {"not given", "non donné"},
+    {"nothing in this scene moves", "rien ne bouge dans cette scène"},
+    {"the base scene", "l'état actuel"},
+    {"this scene has no scenarios", "cette scène n'a pas de scénarios"},
+    {"F1 shows the keys, F2 the panel, K what can be placed",
+     "F1 montre les touches, F2 le panneau, K ce qui se pose"},
+    {"move", "se déplacer"},
+    {"down, up", "descendre, monter"},
+    {"hurries", "plus vite"},
+    {"looks about", "regarder autour"},
+    {"changes speed, or distance when following", "change la vitesse, ou la distance en suivant"},
+    {"walks", "à pied"},
+    {"flies", "en vol"},
+    {"follows the next vehicle", "suivre le véhicule suivant"},
+    {"shows the next scenario", "scénario suivant"},
+    {"halts the traffic, or lets it go on", "arrêter la circulation, ou la reprendre"},
+    {"moves halted traffic on by a tenth of a second", "avancer d'un dixième de seconde"},
+    {"takes a picture", "prendre une image"},
+    {"toward a sketch, toward a photograph", "vers le croquis, vers la photo"},
+    {"what can be placed; the planner's tool", "ce qui se pose ; l'outil d'aménagement"},
+    {"planning: plan, street, balcony", "aménager : plan, rue, balcon"},
+    {"planning: select, surface, measure, compare designs", "aménager : choisir, surface, mesurer, comparer"},
+    {"planning: two designs in colours, with a slider, side by side",
+     "aménager : deux projets en couleurs, avec curseur, côte à côte"},
+    {"planning: move, turn, resize what is selected", "aménager : déplacer, tourner, dimensionner le choix"},
+    {"planning: turn what hangs on the pointer", "aménager : tourner ce qui pend au pointeur"},
+    {"planning: move by 1 cm; Shift 10 cm, Ctrl 1 m", "aménager : déplacer de 1 cm ; Maj 10 cm, Ctrl 1 m"},
+    {"planning: +Z undo, +Y redo, +S save, +D copy, +A all",
+     "aménager : +Z annuler, +Y rétablir, +S enregistrer, +D copier, +A tout"},
+    {"shows these keys", "montrer ces touches"},
+    {"opens and closes the panel", "ouvrir et fermer le panneau"},
+    {"closes this, then the window", "fermer ceci, puis la fenêtre"},
 });
 
 }  // namespace
@@ -92,9 +182,9 @@ Language language_of(std::string_view locale) {
 
 std::string in_language(std::string_view english, Language language) {
   if (language == Language::english) return std::string(english);
-  const auto* const found =
-      std::ranges::find(french, english, &std::pair<std::string_view, std::string_view>::first);
-  return std::string(found == french.end() ? english : found->second);
+  static const std::unordered_map<std::string_view, std::string_view> words(french.begin(), french.end());
+  const auto found = words.find(english);
+  return std::string(found == words.end() ? english : found->second);
 }
 
 }  // namespace parvis::planner
