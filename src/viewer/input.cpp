@@ -2,6 +2,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -23,6 +24,17 @@ bool repeats(int key) {
   constexpr std::array keys{GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_UP, GLFW_KEY_DOWN,     GLFW_KEY_Q,
                             GLFW_KEY_E,    GLFW_KEY_Z,     GLFW_KEY_Y,  GLFW_KEY_BACKSPACE};
   return std::ranges::find(keys, key) != keys.end();
+}
+
+/// Does the mouse belong to panel and bars at a place of the window? ImGui's own answer is of the last frame:
+/// on a slow machine the cursor has come to a button since.
+bool belongs_to_widgets(glm::dvec2 cursor) {
+  if (ImGui::GetIO().WantCaptureMouse) return true;
+  const ImVec2 at(float(cursor.x), float(cursor.y));
+  return std::ranges::any_of(ImGui::GetCurrentContext()->Windows, [&](const ImGuiWindow* window) {
+    return window->WasActive && !window->Hidden && (window->Flags & ImGuiWindowFlags_NoMouseInputs) == 0 &&
+           window->Rect().Contains(at);
+  });
 }
 
 Input& input_of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
@@ -101,7 +113,7 @@ std::optional<planner::Pointer> Input::pointer() const {
   // Side by side one looks and walks; a pointer would be in two pictures.
   if (planning_.compares_pictures() && planning_.compared_view() == ComparedView::side_by_side)
     return std::nullopt;
-  if (!is_dragging && (!is_inside || ImGui::GetIO().WantCaptureMouse)) return std::nullopt;
+  if (!is_dragging && (!is_inside || belongs_to_widgets(cursor_))) return std::nullopt;
   return pointer;
 }
 
@@ -274,7 +286,7 @@ void Input::press(int key) {
 }
 
 void Input::on_button(int button, int action) {
-  if (ImGui::GetIO().WantCaptureMouse && action == GLFW_PRESS) return;
+  if (belongs_to_widgets(cursor_) && action == GLFW_PRESS) return;
   if (tell_scene(mouse_button_name(button), action)) return;
   const bool is_plan = visit_.mode() == Mode::plan;
   if (button == GLFW_MOUSE_BUTTON_MIDDLE || (button == GLFW_MOUSE_BUTTON_RIGHT && is_plan))
@@ -338,7 +350,7 @@ void Input::on_cursor(double x, double y) {
 }
 
 void Input::on_wheel(double steps) {
-  if (ImGui::GetIO().WantCaptureMouse) return;
+  if (belongs_to_widgets(cursor_)) return;
   const bool turns =
       planning_.is_on() && is_held(GLFW_KEY_LEFT_ALT) && planning_.tool()->mode() == planner::Mode::insert;
   if (turns) return static_cast<void>(planning_.tell(planning_.tool()->turn(5.0 * steps)));
