@@ -13,6 +13,14 @@
 namespace parvis::light {
 namespace {
 
+constexpr const char* no_shadows = "none";  // the method of those who compare with a place that has shadows
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names(shadow_technique_names.begin(), shadow_technique_names.end());
+  names.emplace_back(no_shadows);
+  return names;
+}
+
 /// The node's casters and receivers until all nodes are built.
 struct ShadowGroups {
   static constexpr std::string_view name = "light.shadow_groups";
@@ -38,8 +46,9 @@ scene::NodeSchema shadow_map_schema() {
           {choice("method",
                   "cached_cascades: two maps about the viewer, kept from frame to frame; cascades: four, "
                   "fitted to the view; perspective: the thesis's; light_space_perspective: its successor; "
-                  "rays: exact, with the sun's disc where nothing has moved",
-                  {shadow_technique_names.begin(), shadow_technique_names.end()})
+                  "rays: exact, with the sun's disc where nothing has moved; none: the sun shines through "
+                  "everything",
+                  method_names())
                .by_default(shadow_technique_names[0])
                .live(),
            reference(
@@ -94,6 +103,7 @@ void build_shadow_map(const scene::Node& node, scene::SceneBuilder& builder) {
   ShadowSettings& settings = builder.scene.data<ShadowSettings>();
   for (std::size_t i = 0; i < shadow_technique_names.size(); ++i)
     if (node.text("method") == shadow_technique_names[i]) settings.technique = ShadowTechnique(i);
+  if (node.text("method") == no_shadows) settings.technique = ShadowTechnique::none;
   settings.updates_near = node.flag("updateNear");
   settings.sun_samples = int(node.integer("sun_samples"));
   settings.to_light.reset();

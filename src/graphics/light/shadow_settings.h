@@ -19,8 +19,10 @@ enum class ShadowTechnique : unsigned char {
   cascades,                 ///< four maps fitted to the depths that the view has
   perspective,              ///< Stamminger and Drettakis 2002
   light_space_perspective,  ///< Wimmer, Scherzer and Purgathofer 2004
-  rays                      ///< exact; the sun's disc where nothing moves
+  rays,                     ///< exact; the sun's disc where nothing moves
+  none                      ///< the sun shines through everything
 };
+/// Those that show shadows.
 inline constexpr std::array shadow_technique_names{"cached_cascades", "cascades", "perspective",
                                                    "light_space_perspective", "rays"};
 inline constexpr int max_sun_samples = 256;

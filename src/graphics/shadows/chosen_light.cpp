@@ -27,7 +27,8 @@ light::ShadowMethod fitted_by(ShadowTechnique technique) {
 }
 
 bool fits_maps(ShadowTechnique technique) {
-  return technique != ShadowTechnique::cached_cascades && technique != ShadowTechnique::rays;
+  return technique != ShadowTechnique::cached_cascades && technique != ShadowTechnique::rays &&
+         technique != ShadowTechnique::none;
 }
 
 }  // namespace
@@ -62,7 +63,7 @@ bool ChosenShadows::choose(const scene::Scene& scene) {
 
 /// The rays see the scene as it is in this frame.
 void ChosenShadows::follow(const scene::Scene& scene) {
-  if (settings_.technique == ShadowTechnique::cached_cascades) return followed_.reset();
+  if (settings_.technique == ShadowTechnique::cached_cascades || !casts()) return followed_.reset();
   if (!followed_ || has_new_fixed_) {
     followed_ = std::make_unique<reference::RayScene>(
         scene, is_exact() ? reference::Precision::fine : reference::Precision::coarse);
@@ -86,7 +87,13 @@ void ChosenShadows::renew(const render::FixedChange& change, const Bounds& fixed
 
 void ChosenShadows::update(const Camera& camera, const scene::SunLight& sun, std::span<const Bounds> moving,
                            const render::DrawView& draw) {
-  maps_->update(camera, sun, moving, draw);
+  if (casts()) return maps_->update(camera, sun, moving, draw);
+  maps_->update(camera, sun, moving, [&](const render::View& view) {
+    static const std::vector<std::uint8_t> nothing;
+    render::View empty = view;
+    empty.shown_objects = &nothing;
+    draw(empty);
+  });
 }
 
 render::TracedSun ChosenShadows::trace_view(const Camera& camera, int width, int height) {

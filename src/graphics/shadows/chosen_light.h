@@ -26,7 +26,7 @@ class ChosenShadows final : public render::ShadowMethod {
   void update(const Camera& camera, const scene::SunLight& sun, std::span<const Bounds> moving,
               const render::DrawView& draw) override;
   void cast_held(const Bounds& casters, const render::DrawView& draw) override {
-    maps_->cast_held(casters, draw);
+    if (casts()) maps_->cast_held(casters, draw);
   }
   render::TracedSun trace_view(const Camera& camera, int width, int height) override;
   void bind() const override { maps_->bind(); }
@@ -35,6 +35,7 @@ class ChosenShadows final : public render::ShadowMethod {
   bool is_exact() const override { return settings_.technique == light::ShadowTechnique::rays; }
 
  private:
+  bool casts() const { return settings_.technique != light::ShadowTechnique::none; }
   void make_maps();
   void follow(const scene::Scene& scene);
 

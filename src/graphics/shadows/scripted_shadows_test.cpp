@@ -49,11 +49,12 @@ class ScriptedShadows : public scene::ScriptTest<gl::ContextTest> {
     EXPECT_TRUE(render::draw_frame(renderer, scene, {camera_, width, height}));
     return renderer.read_radiance();
   }
-  /// The picture with the exact shadows of the ray tracer and the renderer's light of the sky.
-  ImageF traced(const render::Renderer& renderer, const scene::Scene& scene) const {
+  /// The picture with the exact shadows of the ray tracer, or the renderer's, and the renderer's light of the
+  /// sky.
+  ImageF traced(const render::Renderer& renderer, const scene::Scene& scene, bool is_exact = true) const {
     const reference::RayScene rays(scene);
     shading::DrawnLight exact = renderer.drawn_light();
-    exact.has_exact_shadows = true;
+    exact.has_exact_shadows = is_exact;
     reference::TraceOptions options;
     options.samples_per_pixel = 16;
     options.drawn_light = &exact;
@@ -99,6 +100,17 @@ TEST_F(ScriptedShadows, NamedThingsAloneCastAndNamedThingsAloneReceive) {
     }
     EXPECT_EQ(shade_in(traced(*renderer, scene)), expected) << shadow_map << ", traced";
   }
+}
+
+TEST_F(ScriptedShadows, WithoutShadowsTheSunShinesThroughEverythingUntilItHasThemAgain) {
+  auto loaded = load(place("method=none"));
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  scene::Scene& scene = loaded->scene;
+  const auto renderer = renderer_of(scene);
+  EXPECT_EQ(shade_in(drawn(*renderer, scene)), "LLL");
+  EXPECT_EQ(shade_in(traced(*renderer, scene, false)), "LLL");
+  scene.data<light::ShadowSettings>().technique = ShadowTechnique::cached_cascades;
+  EXPECT_EQ(shade_in(drawn(*renderer, scene)), "SSS");
 }
 
 TEST_F(ScriptedShadows, NamesThatThereAreNotAreReportedWithOnesThatThereAre) {
