@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "scene/data/object_animation.h"
 
@@ -152,10 +153,10 @@ void CrowdProcess::begin(scene::Scene& scene, action::SharedByProcesses&) {
   heights_ = GroundHeights(ground);
   models_ = demand.models;
   crowd_.emplace(*std::move(mesh));
-  const bool is_visible = demand.is_visible;
+  is_visible_ = demand.is_visible;
   if (models_.empty()) generated_.emplace(std::size_t(demand.people), demand.seed);
   populate(demand, scene.roads);
-  add_objects(scene, is_visible);
+  add_objects(scene, is_visible_);
   for (int i = 0; i < warm_up_steps; ++i) walk();
   present(scene, 0.0);
 }
@@ -221,7 +222,16 @@ void CrowdProcess::step(const scene::Scene&) {
   walk();
 }
 
+/// Scenarios and messages show and hide people while the scene runs.
+void CrowdProcess::follow_visibility(scene::Scene& scene) {
+  const bool is_visible = std::as_const(scene).data<CrowdDemand>().is_visible;
+  if (!crowd_ || std::exchange(is_visible_, is_visible) == is_visible) return;
+  if (generated_) return generated_->set_visible(scene, is_visible);
+  for (const Shown& it : shown_) scene.objects[it.object].is_visible = is_visible;
+}
+
 void CrowdProcess::present(scene::Scene& scene, double ahead_s) {
+  follow_visibility(scene);
   const double since_s = double(steps_ % clock_steps) * action::step_s + ahead_s;
   const float part = std::min(float(since_s) / crowd_step_s, 1.0f);
   if (generated_) {

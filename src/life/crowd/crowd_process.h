@@ -51,6 +51,7 @@ class CrowdProcess final : public action::Process {
   void populate(const CrowdDemand& demand, const scene::RoadGraph& roads);
   void walk();
   void add_objects(scene::Scene& scene, bool is_visible);
+  void follow_visibility(scene::Scene& scene);
   int new_destination(Random& random);
 
   std::optional<Crowd> crowd_;
@@ -61,6 +62,7 @@ class CrowdProcess final : public action::Process {
   std::vector<people::WalkingBody> bodies_;  ///< of generated people, in their order
   std::vector<Random> randoms_;
   long steps_ = 0;
+  bool is_visible_ = true;
 };
 
 }  // namespace parvis::crowd

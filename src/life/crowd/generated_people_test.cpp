@@ -58,6 +58,17 @@ class GeneratedPeople : public testing::Test {
   CrowdProcess process_;
 };
 
+TEST_F(GeneratedPeople, AreHiddenAndShownWhileTheyWalkOn) {
+  begin(5);
+  advance(30);
+  scene_.data<CrowdDemand>().is_visible = false;
+  advance(1);
+  for (std::size_t p = 0; p < 5; ++p) EXPECT_FALSE(person(p)) << p;
+  scene_.data<CrowdDemand>().is_visible = true;
+  advance(1);
+  for (std::size_t p = 0; p < 5; ++p) EXPECT_TRUE(person(p)) << p;
+}
+
 TEST_F(GeneratedPeople, WalkWithoutAModelAndStandOnTheGround) {
   begin(12);
   advance(30);

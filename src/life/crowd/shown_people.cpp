@@ -81,6 +81,11 @@ void ShownPeople::add_to(scene::Scene& scene, std::span<const std::string> names
             add(fmt::format("person of look {}", i + 1), looks_[i], detail));
 }
 
+void ShownPeople::set_visible(scene::Scene& scene, bool is_visible) {
+  is_visible_ = is_visible;
+  for (const ShownPerson& it : people_) scene.objects[it.object].is_visible = is_visible;
+}
+
 const people::BodyField& ShownPeople::body(std::size_t person) const {
   return shape_of(looks_[std::size_t(people_[person].look)]).levels.body;
 }

@@ -22,6 +22,9 @@ class ShownPeople {
   /// Adds their objects to a scene, all of them distant; `names` are those of the people.
   void add_to(scene::Scene& scene, std::span<const std::string> names, bool is_visible);
 
+  /// Shows or hides all of them from now on.
+  void set_visible(scene::Scene& scene, bool is_visible);
+
   /// The body of a person.
   const people::BodyField& body(std::size_t person) const;
   /// Speed at which a person of this body walks who is `relative` times as fast as an adult.
