@@ -152,17 +152,27 @@ Status Session::run(std::string_view text) {
     word = fmt::format("{}", fmt::join(selected_, ","));
   }
   Result<Command> command = parse_command(fmt::format("{}", fmt::join(words, " ")));
-  if (!command) return command.errors();
+  if (!command) return witnessed(std::string(text), command.errors());
   return run(*std::move(command));
 }
 
+Status Session::witnessed(const std::string& text, Status done) const {
+  if (witness_) witness_(text, done);
+  return done;
+}
+
 Status Session::run(Command command) {
-  Result<Command> whole = resolved(view(), std::move(command));
-  if (!whole) return whole.errors();
-  if (Result<Changes> changes = changes_of(view(), *whole); !changes)
+  const std::string text = text_of(command);
+  const Result<Command> whole = resolved(view(), std::move(command));
+  if (!whole) return witnessed(text, whole.errors());
+  return witnessed(text_of(*whole), run_resolved(*whole));
+}
+
+Status Session::run_resolved(const Command& whole) {
+  if (Result<Changes> changes = changes_of(view(), whole); !changes)
     return changes.errors();  // before it is noted
-  if (Status status = journal_.append({JournalEntry::What::command, text_of(*whole)}); !status) return status;
-  Status status = do_step(*whole);
+  if (Status status = journal_.append({JournalEntry::What::command, text_of(whole)}); !status) return status;
+  Status status = do_step(whole);
   if (!status)  // what was noted is taken back there, too
     if (Status noted = journal_.append({JournalEntry::What::undo, "failed"}); !noted) return noted;
   return status;
@@ -254,13 +264,13 @@ Status Session::take_step(std::vector<Step>& from, std::vector<Step>& to, bool f
 Status Session::undo() {
   if (done_.empty()) return error("there is nothing to undo");
   if (Status status = journal_.append({JournalEntry::What::undo}); !status) return status;
-  return take_step(done_, undone_, false);
+  return witnessed("undo", take_step(done_, undone_, false));
 }
 
 Status Session::redo() {
   if (undone_.empty()) return error("there is nothing to do again");
   if (Status status = journal_.append({JournalEntry::What::redo}); !status) return status;
-  return take_step(undone_, done_, true);
+  return witnessed("redo", take_step(undone_, done_, true));
 }
 
 /// Gives the design what a script says that stood in it.

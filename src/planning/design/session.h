@@ -41,6 +41,11 @@ class Session {
   /// Does the step again that was undone last.
   Status redo();
 
+  /// Hears of a command, undo or redo that was tried: its text form, and how it went.
+  using Witness = std::function<void(const std::string& text, const Status& done)>;
+  /// Calls `witness` after each from now on.
+  void set_witness(Witness witness) { witness_ = std::move(witness); }
+
   const std::vector<Step>& done() const { return done_; }  ///< steps that can be undone, the last one last
   /// Steps that can be done again, the next one last.
   const std::vector<Step>& undone() const { return undone_; }
@@ -80,6 +85,8 @@ class Session {
   Status apply_one(const Change& change, bool forward);
   void note_neighbours(Changes& changes) const;
   Status replace_all(const std::string& base, const std::filesystem::path& file);
+  Status run_resolved(const Command& whole);
+  Status witnessed(const std::string& text, Status done) const;
   Status do_step(const Command& command);
   Status take_step(std::vector<Step>& from, std::vector<Step>& to, bool forward);
 
@@ -90,6 +97,7 @@ class Session {
   std::vector<Step> done_, undone_;
   Names selected_;
   Journal journal_;
+  Witness witness_;
   std::string saved_script_;
 };
 
