@@ -59,6 +59,13 @@ constexpr Key keys[]{
     {"photomontage_check_points_px_worst", "px", {}, "the same, the worst photograph"},
     {"undo_replay_identical", "", minimum(1.0), "10,000 random commands (1,000): undone, redone, replayed from the journal", {{"undo_replay_identical_of_one_step_less"}}},
     {"kill_loses_commands", "commands", maximum(0.0), "200 kills (20) at random moments", {{"kill_loses_commands_without_journal"}}},
+    // study
+    {"replay_identical", "", minimum(1.0), "square with people and trees: an hour of synthetic input (a minute) replayed from its log, logged states compared", {{"replay_identical_of_one_frame_less"}}},
+    {"study_log_mb_per_hour", "MB", {}, "the log of that hour, 60 frames per second"},
+    {"kill_loses_events", "events", maximum(0.0), "200 kills (20) at random moments", {{"kill_loses_events_that_are_held"}}},
+    {"sus_cases_passed", "", minimum(1.0), "scores, refusals, percentiles and intervals of ../shared/data/study", {{"sus_cases_passed_with_items_shifted_by_one"}}},
+    {"latin_squares_balanced", "", minimum(1.0), "squares of 3, 4 and 5 conditions against the counts of ../shared/data/study", {{"latin_squares_balanced_of_controls"}}},
+    {"xdf_read_back", "", minimum(1.0), "every value of a session as XDF, read by libxdf", {{"xdf_read_back_of_one_bit_changed"}}},
     // reflections
     {"near_cost_ratio_rerendered_over_mem", "", minimum(10.0), "ten cars seen, one near, 1280x720; re-rendered maps at their best over the shipped method", {{"near_cost_ratio_rerendered_over_local"}}},
     {"near_flip_ratio_mem_over_rerendered", "", maximum(0.8), "the same views; FLIP over the baseline that is timed", {{"near_flip_ratio_none_over_rerendered"}}},

@@ -18,14 +18,15 @@ Measured measure_maps_memory, measure_placement, measure_maps_cost, measure_maps
 Measured measure_explosion_maps, measure_search, measure_roots, measure_edges, measure_cost, measure_grids,
     measure_kitchen, measure_bonnet, measure_two_bounces, measure_refraction;  // curved/
 Measured measure_sky, measure_sky_update, measure_relighting, measure_lit_object, measure_bounced_light,
-    measure_night, measure_sun_hours, measure_shadows, measure_shadow_times;            // light/
-Measured measure_plan, measure_plan_files;                                              // plan.cpp
-Measured measure_clicked_cameras;                                                       // clicked_cameras.cpp
-Measured measure_noise_cases, measure_noise_map;                                        // noise.cpp
-Measured measure_sound;                                                                 // sound.cpp
-Measured measure_vegetation;                                                            // vegetation.cpp
-Measured measure_sceaux, measure_courtyard, measure_filling, measure_drawings;          // facades/
-Measured measure_reconstruction, measure_display, measure_maize, measure_distribution;  // trees/
+    measure_night, measure_sun_hours, measure_shadows, measure_shadow_times;  // light/
+Measured measure_plan, measure_plan_files;                                    // plan.cpp
+Measured measure_clicked_cameras;                                             // clicked_cameras.cpp
+Measured measure_study_replay, measure_study_kills, measure_study_cases, measure_study_xdf;  // study.cpp
+Measured measure_noise_cases, measure_noise_map;                                             // noise.cpp
+Measured measure_sound;                                                                      // sound.cpp
+Measured measure_vegetation;                                                                 // vegetation.cpp
+Measured measure_sceaux, measure_courtyard, measure_filling, measure_drawings;               // facades/
+Measured measure_reconstruction, measure_display, measure_maize, measure_distribution;       // trees/
 
 /// Parts of reflections/maps.cpp, on a stage of the paper's city or on its scene.
 void measure_motion(stage::Stage& stage, const BenchSetup& setup, Report& report);

@@ -22,7 +22,7 @@ import unittest
 import zlib
 
 PARVIS = None  # path of the program, from the command line
-SUBCOMMANDS = ["view", "render", "bake", "reference", "compare", "check", "format", "export", "city", "plan", "photomontage", "sun", "facade", "tree", "car", "noise", "sound"]
+SUBCOMMANDS = ["view", "render", "bake", "reference", "compare", "check", "format", "export", "city", "plan", "photomontage", "sun", "facade", "tree", "car", "noise", "sound", "study"]
 SIZE = ["--size", "64x48"]
 
 
@@ -918,6 +918,102 @@ class Plans(InAFolder):
         without_unit = run("check", self.write_scene("0"))
         self.assertEqual(without_unit.returncode, 1)
         self.assertIn("unit=", without_unit.stderr)
+
+
+class Studies(InAFolder):
+    """Sessions of a study, from a file of inputs to a report."""
+
+    STUDY = """study(name=shade, scene="square.xp", order=balanced, asked="sus remarks") {
+  condition(name=bright, scenario=noon)
+  condition(name=dim, scenario=evening)
+  task(name=left, area="-9 -9, 0 -9, 0 9, -9 9", instruction="left")
+  task(name=right, instruction="right")
+}
+"""
+    SCENE = """sun(azimuth_deg=140, elevation_deg=40)
+camera(name=street, position="0 -12 1.7", target="0 0 1")
+design(name=floor) { surface(name=court, material=plain, outline="-9 -9, 9 -9, 9 9, -9 9") }
+scenario(name=noon) { }
+scenario(name=evening) { override(of="%sun", elevation_deg=12) }
+"""
+    INPUTS = "1 do insert bin -2,3\n2 do insert bin 4,3\n3 do insert nothing 0,0\n9 done\n10 do insert bin 1,1\n12 done\n" + "".join(
+        f"{12 + item} answer sus.{item} {5 if item % 2 else 1}\n" for item in range(1, 11)) + "30 answer remarks.good <shade & light>\n31 done\n"
+
+    def setUp(self):
+        super().setUp()
+        self.write("square.xp", self.SCENE)
+        self.task, self.inputs = self.write("shade.study", self.STUDY), self.write("inputs.txt", self.INPUTS)
+
+    def take_part(self, participant, *arguments):
+        return run("study", "run", self.task, "--participant", participant, "--input", self.inputs, *arguments)
+
+    def test_a_session_is_logged_replayed_reported_and_forgotten(self):
+        for participant in ("P1", "P2"):
+            done = self.take_part(participant)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("has ended", done.stdout)
+        again = run("study", "replay", self.task, "--participant", "P1")
+        self.assertEqual((again.returncode, again.stderr), (0, ""))
+        self.assertRegex(again.stdout, r"^1860 frames, [1-9]\d* logged states: the same bits\n$")
+        picture = self.folder / "eye.png"
+        shown = run("study", "replay", self.task, "--participant", "P1", "--at", "8", "-o", picture, *SIZE)
+        self.assertEqual(shown.returncode, 0, shown.stderr)
+        self.assertEqual(len(pixels(picture.read_bytes())[0]), 48)
+
+        page, tables, xdf = (self.folder / name for name in ("report.html", "tables", "xdf"))
+        done = run("study", "report", self.task, "-o", page, "--csv", tables, "--xdf", xdf)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("percentile above 99.8", page.read_text())
+        self.assertIn("&lt;shade &amp; light&gt;", page.read_text())
+        rows = list(csv.DictReader((tables / "parts.csv").open(newline="")))
+        left = [(row["participant"], row["condition"], row["refused"], row["outside"]) for row in rows if row["task"] == "left"]
+        self.assertEqual(left, [("P1", "bright", "1", "1"), ("P2", "dim", "1", "1")])
+        self.assertEqual((xdf / "P2.xdf").read_bytes()[:4], b"XDF:")
+
+        self.assertEqual(run("study", "forget", self.task, "--participant", "P1").returncode, 0)
+        self.expect_failure("study", "replay", self.task, "--participant", "P1", words=["no participant \"P1\"", "P2"])
+
+    def test_the_page_of_questions(self):
+        page = self.folder / "page.html"
+        self.assertEqual(run("study", "page", self.task, "-o", page, "--language", "fr").returncode, 0)
+        self.assertIn("sus.10", page.read_text())
+        self.inputs.write_text("1 done\n2 done\n")
+        self.assertIn("part 3 of 3", self.take_part("P1").stdout)
+        answers = self.write("answers.txt", "0 answer sus.1 4\n0 answer remarks.bad nothing\n")
+        done = run("study", "run", self.task, "--participant", "P1", "--answers", answers)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("has ended", done.stdout)
+
+    def test_what_is_wrong_is_said(self):
+        run_p1 = ["study", "run", self.task, "--participant", "P1", "--input", self.inputs]
+        self.expect_failure("study", "report", self.task, "-o", self.folder / "r.html", words=["no log of sessions"])
+        for wrong, said in (('scene="square.xp"', "needs scene="), ("scenario=noon", '"non"; did you mean')):
+            self.task.write_text(self.STUDY.replace(wrong, "" if "xp" in wrong else "scenario=non").replace("(name=shade, ,", "(name=shade,"))
+            done = run(*run_p1)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("shade.study", done.stderr)
+            self.assertIn("needs scene=" if "xp" in wrong else '"noon"', done.stderr, said)
+        self.task.write_text(self.STUDY)
+        self.assertEqual(run(*run_p1).returncode, 0)
+        self.expect_failure(*run_p1, words=["P1 has a session", "--resume"])
+        self.expect_failure("study", "run", self.task, "--participant", "Anna Miller", "--input", self.inputs, words=["no participant code"])
+        log = self.folder / "shade.sqlite"
+        whole = log.read_bytes()
+        log.write_bytes(whole[: len(whole) // 2])
+        self.expect_failure("study", "replay", self.task, "--participant", "P1", words=["shade.sqlite", "damaged or cut"])
+        log.write_bytes(whole[:60] + struct.pack(">I", 7) + whole[64:])  # the version
+        self.expect_failure("study", "replay", self.task, "--participant", "P1", words=["version 7"])
+
+    def test_a_full_disk_does_not_end_the_session(self):
+        self.inputs.write_text("300 do insert bin -2,3\n301 done\n302 done\n303 done\n")
+        done = run("study", "run", self.task, "--participant", "P1", "--input", self.inputs,
+                   before=["bash", "-c", 'trap "" XFSZ; ulimit -f 400; exec "$@"', "sh"])
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("make room", done.stderr)
+        self.assertIn("has ended", done.stdout)
+        events = run("study", "report", self.task, "--csv", self.folder / "tables")
+        self.assertEqual(events.returncode, 0, events.stderr)
+        self.assertIn("P1,0.000000,part,", (self.folder / "tables" / "P1" / "events.csv").read_text())
 
 
 TEN_LINES = """# two places to look from

@@ -1,9 +1,8 @@
 // parvis view: the window.
-#include <cstdlib>
-
 #include "commands.h"
 #include "scene_arguments.h"
 #include "viewer/window.h"
+#include "window_surroundings.h"
 
 namespace parvis {
 namespace {
@@ -31,27 +30,6 @@ Status read_rate(const std::string& rate, viewer::WindowOptions& window) {
     return error("--fps {}: expected frames per second, 1 to {}, auto or off", rate, max_rate);
   window.frames_per_second = numbers[0];
   return Ok{};
-}
-
-std::string variable(const char* name) {
-  const char* value = std::getenv(name);
-  return value ? value : "";
-}
-
-/// The name of the locale for messages.
-std::string locale() {
-  for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"})
-    if (const std::string value = variable(name); !value.empty()) return value;
-  return "";
-}
-
-/// The folder for pictures of the catalogue, in the user's folder of caches.
-std::filesystem::path kept_pictures() {
-  if (const std::string cache = variable("XDG_CACHE_HOME"); !cache.empty())
-    return std::filesystem::path(cache) / "parvis";
-  if (const std::string home = variable("HOME"); !home.empty())
-    return std::filesystem::path(home) / ".cache" / "parvis";
-  return {};
 }
 
 Status view(ViewArguments& arguments) {

@@ -37,6 +37,14 @@ bool belongs_to_widgets(glm::dvec2 cursor) {
   });
 }
 
+/// Keys that change the scene beside its design, or end the window: participants of a study have none of
+/// them.
+bool is_kept_from_participants(int key) {
+  constexpr std::array keys{GLFW_KEY_TAB, GLFW_KEY_SPACE,   GLFW_KEY_N,         GLFW_KEY_P, GLFW_KEY_3,
+                            GLFW_KEY_C,   GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN, GLFW_KEY_F3};
+  return std::ranges::find(keys, key) != keys.end();
+}
+
 Input& input_of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
 
 }  // namespace
@@ -73,6 +81,8 @@ bool Input::tell_scene(const std::string& key, int action) {
   if (!visit_.actions().uses_key(key)) return false;
   if (action == GLFW_PRESS) visit_.actions().press(key);
   if (action == GLFW_RELEASE) visit_.actions().release(key);
+  if (planning_.study && action != GLFW_REPEAT)
+    planning_.study->note(action == GLFW_PRESS ? "press" : "release", key);
   return true;
 }
 
@@ -82,7 +92,9 @@ void Input::on_key(int key, int action, int modifiers) {
     was_pressed_[std::size_t(moves - movement.begin())] = true;
   if (tell_scene(key_name(key), action) || action == GLFW_RELEASE) return;
   if (action == GLFW_REPEAT && !repeats(key)) return;
+  if (planning_.study && is_kept_from_participants(key)) return;
   if (press_planning(key, modifiers) || action != GLFW_PRESS) return;
+  if (planning_.study && key == GLFW_KEY_ESCAPE) return;
   press(key);
 }
 

@@ -85,14 +85,16 @@ void Panel::draw_panel(Visit& visit, const FrameStatistics& statistics) {
       ImGui::EndTabItem();
     };
     if (design_page) page(page_of_design, [&] { design_page(rows_); });
-    page("Visit", [&] {
-      draw_visit(visit);
-      draw_scenarios(visit);
-      draw_light(visit);
-      draw_processes(visit);
-    });
-    page(page_of_nodes, [&] { nodes_.draw(visit, rows_); });
-    page("Statistics", [&] { draw_statistics(visit, statistics); });
+    if (!shows_design_alone) {
+      page("Visit", [&] {
+        draw_visit(visit);
+        draw_scenarios(visit);
+        draw_light(visit);
+        draw_processes(visit);
+      });
+      page(page_of_nodes, [&] { nodes_.draw(visit, rows_); });
+      page("Statistics", [&] { draw_statistics(visit, statistics); });
+    }
     ImGui::EndTabBar();
   }
   ImGui::EndChild();

@@ -20,6 +20,7 @@ class Panel {
 
   bool is_open = false;
   bool shows_keys = false;
+  bool shows_design_alone = false;  ///< without what a participant of a study must not see or change
 
   /// Width of the panel in ImGui's units; 0 where the panel is closed.
   float width() const;

@@ -92,7 +92,10 @@ bool Planning::open(const std::string& design) {
   if (!session) return tell(session.errors());
   desk_ = std::make_unique<Desk>(simulation, *std::move(session), *surfaces_);
   desk_->tool.set_plan(plan_lines());
-  if (simulation.scene.file.empty()) return true;
+  if (study)
+    desk_->session.set_witness(
+        [this](const std::string& text, const Status& done) { study->note_command(text, done); });
+  if (study || simulation.scene.file.empty()) return true;
   const Result<std::string> restored =
       desk_->session.keep_journal(design::journal_file(simulation.scene.file, desk_->session.name()));
   if (!restored)
@@ -196,7 +199,7 @@ void Planning::redo() {
 }
 
 void Planning::save() {
-  if (!desk_) return;
+  if (!desk_ || study) return;
   const std::filesystem::path scene = visit_.scene().file;
   if (scene.empty()) return visit_.notice_error("this scene has no file beside which the design could lie");
   std::filesystem::path file = design::file_of(desk_->session);
@@ -208,6 +211,8 @@ void Planning::save() {
 
 void Planning::look(PlanningView view) {
   const Camera now = visit_.camera();
+  constexpr std::array names{"plan", "street", "balcony"};
+  if (study) study->note("view", names[std::size_t(view)]);
   waits_for_balcony_ = view == PlanningView::balcony;
   if (view == PlanningView::balcony) return;
   if (view == PlanningView::street) {

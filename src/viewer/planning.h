@@ -9,6 +9,7 @@
 #include "planning/design/difference.h"
 #include "planning/planner/tool.h"
 #include "planning/planner/words.h"
+#include "planning/study/session.h"
 #include "viewer/comparison.h"
 #include "viewer/visit.h"
 
@@ -28,6 +29,9 @@ class Planning {
   /// Takes it up or puts it away. Taking it up opens the scene's first design, with its journal.
   void turn_on(bool on);
   bool shows_catalogue = false;  ///< along the lower edge
+  /// The session that a participant works in, which logs what is done: no files are written then. Null: there
+  /// is none.
+  study::Session* study = nullptr;
 
   planner::Tool* tool() { return desk_ ? &desk_->tool : nullptr; }          ///< null: no design is open
   design::Session* session() { return desk_ ? &desk_->session : nullptr; }  ///< null: no design is open
@@ -93,6 +97,7 @@ class Planning {
   /// Frames what is selected.
   void frame_selection();
 
+  planner::Language language() const { return language_; }  ///< as given
   /// A word of the tool in the planner's language.
   std::string word(std::string_view english) const { return planner::in_language(english, language_); }
   /// Does anything hang on the pointer or move? The scene stands still meanwhile.

@@ -37,8 +37,8 @@ void Visit::step(const Controls& controls, float passed_s, bool stands_still) {
   time_s_ += double(passed_s);
   const float seconds = std::min(passed_s, longest_step_s);
   std::erase_if(notices_, [this](const Notice& notice) { return notice.ends_s < time_s_; });
-  const double scene_s = stands_still ? 0.0 : double(seconds);
-  for (const Error& warning : stage_.simulation().advance(scene_s, camera().position_in_world()))
+  advanced_s_ = stands_still ? 0.0 : double(seconds);
+  for (const Error& warning : stage_.simulation().advance(advanced_s_, camera().position_in_world()))
     notice_error(to_string(warning));
   follow_guidance(controls);
   const bool has_vehicle = followed_ >= 0 && followed_ < int(scene().objects.size());

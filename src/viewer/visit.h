@@ -40,6 +40,7 @@ class Visit {
   /// where it stopped. The visitor moves for a tenth of a second at most.
   /// Where `stands_still`, the scene's time does not go on.
   void step(const Controls& controls, float passed_s, bool stands_still = false);
+  double advanced_s() const { return advanced_s_; }       ///< by which the last step advanced the scene
   Camera camera() const { return navigation_.camera(); }  ///< the visitor's present view
 
   Mode mode() const { return navigation_.mode(); }  ///< walk, fly or follow
@@ -133,7 +134,7 @@ class Visit {
   PicturePlace pictures_;
   int followed_ = -1;
   std::unordered_map<std::string, glm::vec4> first_places_;  ///< of dynamic objects, by name
-  double time_s_ = 0.0;
+  double time_s_ = 0.0, advanced_s_ = 0.0;
   std::vector<Notice> notices_;
 };
 

@@ -17,6 +17,7 @@
 #include "viewer/keys.h"
 #include "viewer/panel.h"
 #include "viewer/planning_bars.h"
+#include "viewer/study_desk.h"
 
 namespace parvis::viewer {
 namespace {
@@ -130,6 +131,10 @@ class Frames {
         imgui_input_(window) {
     panel_.is_open = options.has_panel;
     if (options.plans) planning_.turn_on(true);
+    if (options.study) {
+      panel_.shows_design_alone = true;
+      study_.emplace(*options.study, planning_, imgui_);
+    }
     if (!planning_.is_on()) visit_.notice("F1 shows the keys, F2 the panel, K what can be placed");
     stage.hold_rate(rate_of(options, gl::is_software()));
     // A camera that follows takes the view along until the visitor moves.
@@ -147,9 +152,12 @@ class Frames {
       const bool held = planning_.holds_things();
       if (!rests_ && !held) visit_.stage().follow_clock(1e3 * double(seconds));
       const Controls controls = input_.poll(double(seconds));
+      const Camera eye = visit_.camera();
       visit_.step(controls, seconds, planning_.holds_things());
+      if (study_) study_->add_frame(double(seconds), visit_.advanced_s(), eye);
       draw(double(seconds));
-      const bool is_last = glfwWindowShouldClose(window_) || frame == options_.max_frames;
+      const bool is_last =
+          glfwWindowShouldClose(window_) || frame == options_.max_frames || (study_ && study_->has_ended());
       if (is_last && !options_.screenshot.empty())
         if (Status status = write_image(options_.screenshot, read_window(width_, height_)); !status)
           return status;
@@ -183,6 +191,7 @@ class Frames {
                                              : std::function<void(PanelRows&)>();
     panel_.draw(visit_, statistics_);
     bars_.draw(ImGui::GetIO().DisplaySize.x - panel_.width());
+    if (study_) study_->draw(ImGui::GetIO().DisplaySize.x - panel_.width());
 
     stage::Stage& stage = visit_.stage();
     const int covered = int(panel_.width() * scale_.pixels_per_point);
@@ -239,6 +248,7 @@ class Frames {
   Panel panel_;
   Planning planning_;
   PlanningBars bars_;
+  std::optional<StudyDesk> study_;
   Input input_;
   ImguiInput imgui_input_;
   FrameStatistics statistics_;
@@ -262,13 +272,21 @@ Status show(stage::Simulation simulation, const WindowOptions& options) {
   Glfw glfw;
   if (Status status = open_window(glfw, options); !status) return status;
   show_opening(glfw.window, options);
-  simulation.scene.data<methods::Pace>().begins_at_once = begins_at_once(options);
-  Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(std::move(simulation));
-  if (!stage) return stage.errors();
-  const Result<Camera> start = (*stage)->camera(options.camera);
-  if (!start) return start.errors();
   print_keys();
-  return Frames(glfw.window, **stage, *start, options).run();
+  for (;;) {
+    simulation.scene.data<methods::Pace>().begins_at_once = begins_at_once(options);
+    Result<std::unique_ptr<stage::Stage>> stage = stage::Stage::create(std::move(simulation));
+    if (!stage) return stage.errors();
+    const Result<Camera> start = (*stage)->camera(options.camera);
+    if (!start) return start.errors();
+    if (Status status = Frames(glfw.window, **stage, *start, options).run(); !status) return status;
+    if (!options.next_scene || glfwWindowShouldClose(glfw.window)) return Ok{};
+    Result<std::optional<stage::Simulation>> next = options.next_scene();
+    if (!next) return next.errors();
+    if (!*next) return Ok{};
+    simulation = **std::move(next);
+    show_opening(glfw.window, options);
+  }
 }
 
 }  // namespace parvis::viewer

@@ -1,10 +1,12 @@
 // The window in which one walks, flies and follows a vehicle, with the panel beside the picture.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "planning/planner/words.h"
+#include "planning/study/session.h"
 #include "stage/stage.h"
 #include "viewer/visit.h"
 
@@ -22,6 +24,9 @@ struct WindowOptions {
   int max_frames = 0;  ///< closes after so many; 0: when the visitor does (tests and screenshots)
   std::optional<double> frames_per_second;  ///< to hold by drawing fewer pixels; 0: none; unset: `rate_of`
   bool always_holds_rate = false;           ///< the window's own rate is held where `max_frames` is set, too
+  study::Session* study = nullptr;          ///< of a participant who works in the window; not owned
+  /// The scene of the session's next part, when this one's are over; nothing where there is none.
+  std::function<Result<std::optional<stage::Simulation>>()> next_scene = {};
   std::string screenshot;  ///< what the window shows last, panel and all, is written here; empty: nowhere
 };
 
