@@ -7,13 +7,21 @@
 #include <optional>
 
 #include "capture/facades/placed_facade.h"
+#include "graphics/gl/uniform_block.h"
+#include "graphics/render/bindings.h"
 #include "graphics/render/static_things.h"
 #include "graphics/render/view_programs.h"
+#include "graphics/shading/glsl.h"
 #include "scene/data/scene.h"
 #include "scene/data/sun_shadows.h"
 
 namespace parvis::facades {
 namespace {
+
+namespace block_shared {
+using namespace parvis::shading;
+#include "capture/facades/facade_block.glsl"
+}  // namespace block_shared
 
 using render::Culling;
 using render::Extents;
@@ -291,16 +299,16 @@ class FacadeDrawable final : public render::Drawable {
         textures.resident_tiles());
   }
 
-  static void bind(const gl::Program& program, const ShownFacade& facade, const ChosenLists& lists,
-                   int thing) {
+  void bind(const gl::Program& program, const ShownFacade& facade, const ChosenLists& lists,
+            int thing) const {
     facade.loaded->textures.bind(program, lists);
-    program.set("world_from_facade", facade.world_from_facade);
     const glm::mat4 facade_from_world = glm::inverse(facade.world_from_facade);
-    program.set("facade_from_world", facade_from_world);
-    program.set("facade_units_log2", std::log2(glm::length(glm::vec3(facade_from_world[0]))));
-    program.set("facade_thing", thing);
-    program.set("radiance_of_exposed", facade.radiance_of_exposed);
-    program.set("kept_of_shadows", facade.kept_in_shadow);
+    block_.bind(program, {.world_from_facade = facade.world_from_facade,
+                          .facade_from_world = facade_from_world,
+                          .radiance_of_exposed = facade.radiance_of_exposed,
+                          .kept_of_shadows = facade.kept_in_shadow,
+                          .facade_units_log2 = std::log2(glm::length(glm::vec3(facade_from_world[0]))),
+                          .facade_thing = thing});
     glDisable(GL_CULL_FACE);
   }
 
@@ -315,6 +323,7 @@ class FacadeDrawable final : public render::Drawable {
   HeldTexels held_;
   bool receives_inserted_;
   Programs programs_;
+  gl::UniformBlock<block_shared::Facade> block_{"Facade", render::first_drawable_block};
   Loaded loaded_;
   std::vector<ShownFacade> shown_;
   std::vector<std::array<std::optional<ChosenForEye>, 2>> chosen_;  ///< per facade: main view, others

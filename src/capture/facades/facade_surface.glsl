@@ -2,15 +2,13 @@
 #include "graphics/shading/tone_curve.glsl"
 #include "graphics/shading/view_blend.glsl"
 #include "graphics/shading/recorded_light.glsl"
+#include "capture/facades/facade_block.glsl"
 #include "capture/facades/facade_photo.glsl"
 
 uniform highp sampler2D facade_photos;  // a row of 7 texels per photograph
 uniform highp usampler2D facade_layers, facade_candidates, facade_tiles,
     facade_depths;                          // lists in rows of 1024
 uniform highp sampler2DArray facade_atlas;  // pages of 16 x 16 slots
-uniform mat4 facade_from_world;
-uniform float radiance_of_exposed;  // radiance that the display shows as exposed 1
-uniform float kept_of_shadows;      // share of its light that is left in shadow; 1: it receives none
 
 #ifdef RECEIVES_INSERTED
 flat in float lit_luminance;  // of the surface in the sun, exposed; 0: not known
@@ -19,8 +17,7 @@ flat in float lit_luminance;  // of the surface in the sun, exposed; 0: not know
 #ifdef IS_CHOSEN
 in vec4 at_of_chosen, of_first, of_second;  // ChosenCorner; w: pixel_sizes of ChosenTriangle
 in vec3 rest_of_chosen;
-uniform float facade_units_log2;  // of the facade's frame in a metre, log2
-flat in ivec4 stored_of_chosen;   // as ChosenTriangle::tiles, with slots in place of tiles; z < 0: no second
+flat in ivec4 stored_of_chosen;  // as ChosenTriangle::tiles, with slots in place of tiles; z < 0: no second
 #else
 in vec3 position_in_facade;
 in vec3 fallback_colour;

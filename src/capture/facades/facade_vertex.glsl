@@ -1,6 +1,7 @@
 // Of a captured facade: a corner, and which layers hold its triangle.
 #include "graphics/render/frame.glsl"
 #include "graphics/render/surface_outputs.glsl"
+#include "capture/facades/facade_block.glsl"
 
 layout(location = 0) in vec3 facade_corner;
 layout(location = 1) in vec3 facade_normal;
@@ -14,9 +15,6 @@ layout(location = 7) in vec4 chosen_second;
 layout(location = 8) in vec4 chosen_rest;
 layout(location = 9) in ivec4 chosen_stored;
 #endif
-
-uniform mat4 world_from_facade;
-uniform int facade_thing;
 
 #ifdef RECEIVES_INSERTED
 flat out float lit_luminance;

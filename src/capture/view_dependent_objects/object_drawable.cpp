@@ -4,13 +4,21 @@
 
 #include "capture/view_dependent_objects/object_textures.h"
 #include "capture/view_dependent_objects/placed_object.h"
+#include "graphics/gl/uniform_block.h"
+#include "graphics/render/bindings.h"
 #include "graphics/render/static_things.h"
 #include "graphics/render/view_programs.h"
+#include "graphics/shading/glsl.h"
 #include "scene/data/scene.h"
 #include "scene/data/sun_shadows.h"
 
 namespace parvis::view_dependent_objects {
 namespace {
+
+namespace block_shared {
+using namespace parvis::shading;
+#include "capture/view_dependent_objects/object_block.glsl"
+}  // namespace block_shared
 
 using render::Culling;
 using render::Extents;
@@ -80,9 +88,9 @@ class ObjectDrawable final : public render::Drawable {
       if (object.model->has_holes != (pass == Pass::cutout)) continue;
       if (!program) program = (pass == Pass::cutout ? cutout_ : solid_).use(view);
       if (!program) return;
-      if (bound != shown.object) bind(*program, object, first_thing_ + int(shown.object));
+      if (bound != shown.object) loaded_.at(object.model).bind(*program);
       bound = shown.object;
-      ObjectTextures::draw(*program, *shown.piece);
+      draw(*program, object, *shown.piece, first_thing_ + int(shown.object));
     }
   }
 
@@ -111,16 +119,19 @@ class ObjectDrawable final : public render::Drawable {
     return Ok{};
   }
 
-  void bind(const gl::Program& program, const PlacedObject& object, int thing) const {
-    loaded_.at(object.model).bind(program);
-    program.set("world_from_object", object.world_from_object);
-    program.set("object_from_world", glm::inverse(object.world_from_object));
-    program.set("thing", thing);
-    program.set("radiance_of_exposed", object.brightness / exposure_);
-    program.set("kept_of_shadows", object.kept_in_shadow);
-    program.set("lit_luminance", object.model->lit_luminance);
-    program.set("pass_count", object.passes);
+  void draw(const gl::Program& program, const PlacedObject& object, const Piece& piece, int thing) const {
+    block_.bind(program, {.world_from_object = object.world_from_object,
+                          .object_from_world = glm::inverse(object.world_from_object),
+                          .radiance_of_exposed = object.brightness / exposure_,
+                          .kept_of_shadows = object.kept_in_shadow,
+                          .lit_luminance = object.model->lit_luminance,
+                          .thing = thing,
+                          .first_entry = piece.first_entry,
+                          .view_count = piece.views,
+                          .pass_count = object.passes,
+                          .first_triangle = int(piece.first_triangle)});
     glDisable(GL_CULL_FACE);
+    glDrawArrays(GL_TRIANGLES, GLint(3 * piece.first_triangle), GLsizei(3 * piece.triangle_count));
   }
 
   std::vector<Shown>& list_of(const View& view) {
@@ -129,6 +140,8 @@ class ObjectDrawable final : public render::Drawable {
 
   int first_thing_;
   render::ViewPrograms solid_, cutout_;
+  gl::UniformBlock<block_shared::ViewDependentObject> block_{"ViewDependentObject",
+                                                             render::first_drawable_block};
   Loaded loaded_;
   std::vector<PlacedObject> placed_;  ///< as of the last update
   std::vector<bool> casts_shadow_;    ///< each of them

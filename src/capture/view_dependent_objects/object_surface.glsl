@@ -3,14 +3,10 @@
 #include "graphics/shading/recorded_light.glsl"
 #include "graphics/shading/view_blend.glsl"
 
+#include "capture/view_dependent_objects/object_block.glsl"
 #include "capture/view_dependent_objects/view_table_layout.glsl"
 uniform highp sampler2D view_table;
 uniform highp sampler2DArray view_pictures;
-uniform mat4 object_from_world;
-uniform float radiance_of_exposed;  // radiance that the display shows as exposed 1
-uniform float kept_of_shadows;      // share of its light that is left in shadow; 1: it receives none
-uniform float lit_luminance;        // of the object in the sun, exposed; 0: not known
-uniform int first_entry, view_count, pass_count, first_triangle;
 
 in vec3 position_in_object;
 in vec3 corner_weights;

@@ -82,11 +82,4 @@ void ObjectTextures::bind(const gl::Program& program) const {
   glBindVertexArray(vertices_.name());
 }
 
-void ObjectTextures::draw(const gl::Program& program, const Piece& piece) {
-  program.set("first_entry", piece.first_entry);
-  program.set("view_count", piece.views);
-  program.set("first_triangle", int(piece.first_triangle));
-  glDrawArrays(GL_TRIANGLES, GLint(3 * piece.first_triangle), GLsizei(3 * piece.triangle_count));
-}
-
 }  // namespace parvis::view_dependent_objects

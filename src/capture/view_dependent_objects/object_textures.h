@@ -15,8 +15,6 @@ class ObjectTextures {
 
   /// Vertices, and textures from `render::first_drawable_unit` on.
   void bind(const gl::Program& program) const;
-  /// The triangles of a piece.
-  static void draw(const gl::Program& program, const Piece& piece);
 
  private:
   gl::Buffer corners_;

@@ -1,12 +1,10 @@
 // Of a view-dependent object: a corner, and which one of which triangle it is.
 #include "graphics/render/frame.glsl"
 #include "graphics/render/surface_outputs.glsl"
+#include "capture/view_dependent_objects/object_block.glsl"
 
 layout(location = 0) in vec3 object_corner;
 layout(location = 1) in vec3 object_normal;
-
-uniform mat4 world_from_object;
-uniform int thing;
 
 out vec3 position_in_object;
 out vec3 corner_weights;

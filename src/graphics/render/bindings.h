@@ -27,8 +27,15 @@ enum TextureUnit : GLuint {
   first_drawable_unit = 24
 };
 
-/// Bindings of uniform blocks; rooms above take those from `first_block_above` on.
-enum UniformBlock : GLuint { frame_block, material_block, bodies_block, first_block_above };
+/// Bindings of uniform blocks; rooms above take those from `first_block_above` on, rooms that draw surfaces
+/// by themselves those from `first_drawable_block` on.
+enum UniformBlock : GLuint {
+  frame_block,
+  material_block,
+  bodies_block,
+  first_block_above,
+  first_drawable_block = 12
+};
 
 /// Assigns units and blocks; called once for each program that includes frame.glsl, material.glsl,
 /// body_lookup.glsl, sky_lookup.glsl or sun_lookup.glsl. What the program lacks of them is left out.

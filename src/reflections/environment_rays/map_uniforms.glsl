@@ -12,7 +12,4 @@ uniform highp sampler2DArray map_glosses;
 uniform highp sampler2DArray map_distances;
 uniform highp usampler2D map_choice;  // four maps per ground cell
 uniform highp sampler2D map_places;
-uniform vec4 height_grid;  // south-west corner, metres per cell, top level
-uniform vec2 height_cells;
-uniform vec3 choice_grid;  // south-west corner, metres per cell
-uniform vec2 layer_size;   // texels per side, and of its border
+#include "reflections/environment_rays/map_block.glsl"

@@ -152,10 +152,10 @@ void MirroredBodies::find_neighbours(const std::vector<methods::VisibleReflector
 }
 
 void MirroredBodies::prepare(const gl::Program& program, GLuint unit) const {
-  glBindBufferBase(GL_UNIFORM_BUFFER, methods::method_block, block_.name());
+  glBindBufferBase(GL_UNIFORM_BUFFER, methods::first_method_block, block_.name());
   if (const GLuint index = glGetUniformBlockIndex(program.name(), "MirroredBodies");
       index != GL_INVALID_INDEX)
-    glUniformBlockBinding(program.name(), index, methods::method_block);
+    glUniformBlockBinding(program.name(), index, methods::first_method_block);
   gl::bind_textures(program, {{"body_fields", unit, fields_.name()}});
 }
 

@@ -282,10 +282,10 @@ void MultipleEnvironmentMaps::prepare(const gl::Program& program) const {
                               {"map_distances", distances_unit, maps_.distances()},
                               {"map_choice", choice_unit, table_.texture()},
                               {"map_places", places_unit, maps_.place_texture()}});
-  program.set("height_grid", glm::vec4(origin_, cell_m_, float(top_level_)));
-  program.set("height_cells", glm::vec2(cells_));
-  program.set("choice_grid", table_.grid());
-  program.set("layer_size", glm::vec2(float(maps_.resolution()), float(ReferenceMaps::border)));
+  layout_.bind(program, {.height_grid = glm::vec4(origin_, cell_m_, float(top_level_)),
+                         .choice_grid = glm::vec4(table_.grid(), 0.0f),
+                         .height_cells = glm::vec2(cells_),
+                         .layer_size = glm::vec2(float(maps_.resolution()), float(ReferenceMaps::border))});
 }
 
 void MultipleEnvironmentMaps::bind(const gl::Program& program, int) {

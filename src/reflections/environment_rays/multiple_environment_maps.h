@@ -7,9 +7,11 @@
 #include <array>
 #include <optional>
 
+#include "graphics/gl/uniform_block.h"
 #include "graphics/render/quality_budget.h"
 #include "reflections/environment_rays/map_table.h"
 #include "reflections/environment_rays/mirrored_bodies.h"
+#include "reflections/methods/bindings.h"
 #include "reflections/methods/light_jump.h"
 #include "reflections/methods/mirror_picture.h"
 #include "reflections/methods/reflections.h"
@@ -21,6 +23,10 @@
 
 namespace parvis::environment_rays {
 #include "reflections/environment_rays/ray_detail.glsl"
+namespace map_block {
+using namespace parvis::shading;
+#include "reflections/environment_rays/map_block.glsl"
+}  // namespace map_block
 using namespace reference_maps;
 
 /// Creates the method for a scene. A reference map is read, or drawn if it is not baked, when a reflector
@@ -104,6 +110,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   bool renews_one_ = false;          ///< no eye of this frame has renewed a map yet
   bool prefers_rate_ = false;        ///< draws at most one missing map per frame
   gl::Texture heights_;
+  gl::UniformBlock<map_block::MapLayout> layout_{"MapLayout", methods::first_method_block + 1};
 };
 
 }  // namespace parvis::environment_rays

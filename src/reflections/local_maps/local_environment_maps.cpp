@@ -165,12 +165,13 @@ void LocalEnvironmentMaps::bind(const gl::Program& program, int object) {
   const Used& used = used_[std::size_t(object)];
   gl::bind_textures(program, {{"local_maps", local_unit, picture_.texture()},
                               {"map_colours", colours_unit, maps_.colours()}});
-  program.set("layer_size", glm::vec2(float(maps_.resolution()), float(ReferenceMaps::border)));
-  program.set("map_pair", glm::vec2(float(used.pair.first), float(used.pair.second)));
-  program.set("picture_size", glm::vec2(picture_.size()));
-  program.set("local_border", float(local_map_border));
-  program.set("local_map", used.place ? glm::vec3(picture_.corner(used.place->slot), float(used.place->tile))
-                                      : glm::vec3(0.0f));
+  blended_.bind(program, maps_, used.pair);
+  const glm::vec4 local_map =
+      used.place ? glm::vec4(picture_.corner(used.place->slot), float(used.place->tile), 0.0f)
+                 : glm::vec4(0.0f);
+  local_.bind(program, {.local_map = local_map,
+                        .picture_size = glm::vec2(picture_.size()),
+                        .local_border = float(local_map_border)});
 }
 
 Result<std::unique_ptr<methods::Reflections>> make_local_environment_maps(

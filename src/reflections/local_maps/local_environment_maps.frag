@@ -9,9 +9,7 @@
 #include "graphics/render/surface_body.glsl"
 
 uniform highp sampler2D local_maps;
-uniform vec3 local_map;     // south-west corner in texels, texels per side of a tile; 0: there is none
-uniform vec2 picture_size;  // of all local maps
-uniform float local_border;
+#include "reflections/local_maps/local_map_block.glsl"
 
 const float coarsest_level = 3.0f;  // as far as the tiles' borders reach
 

@@ -11,9 +11,14 @@
 #include "reflections/methods/reflections.h"
 #include "reflections/methods/settings.h"
 #include "reflections/reference_maps/map_pair.h"
+#include "reflections/reference_maps/simple_blend.h"
 
 namespace parvis::local_maps {
 using namespace reference_maps;
+namespace local_map_block {
+using namespace parvis::shading;
+#include "reflections/local_maps/local_map_block.glsl"
+}  // namespace local_map_block
 
 /// Creates the method for a scene; baking the reference maps takes a few seconds. Errors: a shader, or the
 /// baking.
@@ -83,6 +88,8 @@ class LocalEnvironmentMaps final : public methods::Reflections {
   std::vector<std::uint8_t> others_;  ///< for each object: does it show in the map that is looked at?
   std::vector<FaceTask> tasks_;
   std::vector<FaceMesh> meshes_;  ///< as many as a frame ever needed
+  BlendedMapsBlock blended_;
+  gl::UniformBlock<local_map_block::LocalMap> local_{"LocalMap", methods::first_method_block + 1};
 };
 
 }  // namespace parvis::local_maps

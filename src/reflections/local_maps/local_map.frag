@@ -3,7 +3,7 @@
 #include "graphics/shading/octahedral.glsl"
 
 uniform highp sampler2DArray map_colours;
-uniform vec2 layer_size;  // texels per side, and of its border
+#include "reflections/local_maps/picture_block.glsl"
 
 in vec3 from_a;
 in vec3 from_b;

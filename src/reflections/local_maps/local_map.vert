@@ -11,10 +11,7 @@ layout(location = 2) in uint map_pair;
 
 uniform highp sampler2DArray map_distances;
 uniform highp sampler2D map_places;
-uniform vec2 layer_size;    // texels per side, and of its border
-uniform vec2 picture_size;  // of all local maps, texels
-uniform vec2 near_far;      // of the cube faces that are drawn over the map
-uniform float cell_m;
+#include "reflections/local_maps/picture_block.glsl"
 
 out vec3 from_a;  // from a map's place to the point
 out vec3 from_b;

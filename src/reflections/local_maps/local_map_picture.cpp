@@ -107,6 +107,13 @@ void LocalMapPicture::upload(std::span<const FaceMesh> meshes) {
                             sizeof(LocalMapVertex));
 }
 
+void LocalMapPicture::bind_layout(const gl::Program& program, float layer_side, float cell_m) const {
+  layout_.bind(program, {.layer_size = {layer_side, float(ReferenceMaps::border)},
+                         .picture_size = glm::vec2(size_),
+                         .near_far = {methods::cube_near_m, methods::cube_far_m},
+                         .cell_m = cell_m});
+}
+
 void LocalMapPicture::draw(std::span<const FaceMesh> meshes, const ReferenceMaps& maps, float cell_m) {
   if (meshes.empty()) return;
   upload(meshes);
@@ -127,10 +134,7 @@ void LocalMapPicture::draw(std::span<const FaceMesh> meshes, const ReferenceMaps
     gl::bind_textures(program, {{"map_colours", picture_colours_unit, maps.colours()},
                                 {"map_distances", distances_unit, maps.distances()},
                                 {"map_places", places_unit, maps.place_texture()}});
-    program.set("layer_size", glm::vec2(float(maps.resolution()), float(ReferenceMaps::border)));
-    program.set("picture_size", glm::vec2(size_));
-    program.set("near_far", glm::vec2(methods::cube_near_m, methods::cube_far_m));
-    program.set("cell_m", cell_m);
+    bind_layout(program, float(maps.resolution()), cell_m);
     // OpenGL takes the place in the bound buffer as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
     const void* indices = reinterpret_cast<const void*>(first_index);
     glDrawElements(GL_TRIANGLES, GLsizei(indices_.size()), GL_UNSIGNED_INT, indices);
@@ -174,7 +178,7 @@ void LocalMapPicture::update_levels(std::span<const LocalMapPlace> places) {
   glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);
   programs_.level.use();
-  programs_.level.set("picture_size", glm::vec2(size_));
+  bind_layout(programs_.level, 0.0f, 0.0f);
   gl::bind_textures(programs_.level, {{"finer", finer_unit, colours_.name()}});
   for (int level = 1; level < local_map_levels; ++level) {
     // What is read and what is drawn are never one level.

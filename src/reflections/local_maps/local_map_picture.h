@@ -5,15 +5,21 @@
 #include <span>
 #include <vector>
 
-#include "graphics/gl/program.h"
+#include "graphics/gl/uniform_block.h"
 #include "graphics/render/stream_buffer.h"
+#include "graphics/shading/glsl.h"
 #include "reflections/local_maps/local_map_mesh.h"
 #include "reflections/local_maps/local_map_settings.h"
+#include "reflections/methods/bindings.h"
 #include "reflections/reference_maps/reference_maps.h"
 #include "scene/data/scene.h"
 
 namespace parvis::local_maps {
 using namespace reference_maps;
+namespace picture_block {
+using namespace parvis::shading;
+#include "reflections/local_maps/picture_block.glsl"
+}  // namespace picture_block
 
 /// Place of a local map in the texture; its tiles may be smaller than the slot's.
 struct LocalMapPlace {
@@ -49,6 +55,7 @@ class LocalMapPicture {
   };
   LocalMapPicture(int max_texels, LocalMapView shown, Programs programs);
   void upload(std::span<const FaceMesh> meshes);
+  void bind_layout(const gl::Program& program, float layer_side, float cell_m) const;
 
   int max_texels_;
   LocalMapView shown_;
@@ -62,6 +69,7 @@ class LocalMapPicture {
   std::vector<LocalMapVertex> vertices_;
   std::vector<std::uint32_t> indices_;
   std::vector<glm::vec4> rectangles_;
+  gl::UniformBlock<picture_block::PictureLayout> layout_{"PictureLayout", methods::first_method_block};
 };
 
 }  // namespace parvis::local_maps

@@ -1,7 +1,7 @@
 // A local map's rectangle of the picture of all maps, one an instance.
 layout(location = 0) in vec4 rectangle;  // south-west corner and size, in texels of the finest level
 
-uniform vec2 picture_size;
+#include "reflections/local_maps/picture_block.glsl"
 
 out vec2 picture_uv;
 

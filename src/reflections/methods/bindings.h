@@ -10,7 +10,9 @@ namespace parvis::methods {
 inline constexpr GLuint first_method_unit = render::first_unit_above;
 inline constexpr GLuint first_overlay_unit = first_method_unit + 7;
 
-/// The uniform block of a method.
-inline constexpr GLuint method_block = render::first_block_above;
+/// A method takes up to two uniform blocks from `first_method_block` on, overlays those from
+/// `first_overlay_block` on.
+inline constexpr GLuint first_method_block = render::first_block_above;
+inline constexpr GLuint first_overlay_block = first_method_block + 2;
 
 }  // namespace parvis::methods

@@ -116,25 +116,19 @@ void BoxProjectedProbe::forget_surroundings() {
   for (Probe& probe : probes_) probe.map.reset();
 }
 
-void BoxProjectedProbe::set_box(const gl::Program& program, int i, const Probe& probe) {
-  const auto set = [&](const char* field, const auto& value) {
-    program.set(fmt::format("{}[{}]", field, i).c_str(), value);
-  };
-  set("map_centre", probe.position);
-  set("box_centre", probe.box_centre);
-  set("box_half_size", probe.box_half_size);
-  set("box_heading", probe.heading);
-}
-
 void BoxProjectedProbe::bind(const gl::Program& program, int object) {
   const ProbePair& pair = probes_of_object_.at(object);
   const Probe &nearest = *pair.nearest, &second = *pair.second;
   if (!nearest.map || !second.map) return;  // forgotten, and no frame has drawn them since
   bind_map(program, *nearest.map);
   gl::bind_textures(program, {{"second_map", methods::first_method_unit + 1, second.map->texture()}});
-  program.set("second_share", pair.second_share);
-  set_box(program, 0, nearest);
-  set_box(program, 1, second);
+  const auto box_of = [](const Probe& probe) {
+    return boxes_shared::ProbeBox{.map_centre = glm::vec4(probe.position, 1.0f),
+                                  .box_centre = glm::vec4(probe.box_centre, 1.0f),
+                                  .box_half_size = glm::vec4(probe.box_half_size, 0.0f),
+                                  .box_heading = glm::vec4(probe.heading, 0.0f, 0.0f)};
+  };
+  boxes_.bind(program, {.boxes = {box_of(nearest), box_of(second)}, .second_share = pair.second_share});
 }
 
 }  // namespace parvis::probes

@@ -10,18 +10,15 @@ uniform float reflection_levels;
 
 #ifdef BLENDS_BOXES
 uniform samplerCube second_map;
-uniform float second_share;
-uniform vec3 map_centre[2];
-uniform vec3 box_centre[2];
-uniform vec3 box_half_size[2];
-uniform vec2 box_heading[2];  // cosine and sine
+#include "reflections/probes/probe_boxes_block.glsl"
 
 vec3 looked_up_direction[2];
 
 void look_along(vec3 at, vec3 direction) {
   for (int i = 0; i < 2; ++i)
-    looked_up_direction[i] = box_projected_direction(at, direction, map_centre[i], box_centre[i],
-                                                     box_half_size[i], box_heading[i]);
+    looked_up_direction[i] =
+        box_projected_direction(at, direction, boxes[i].map_centre.xyz, boxes[i].box_centre.xyz,
+                                boxes[i].box_half_size.xyz, boxes[i].box_heading.xy);
 }
 
 vec3 reflected_radiance(float roughness, int layer) {

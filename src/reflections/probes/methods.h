@@ -6,11 +6,19 @@
 #include <map>
 #include <optional>
 
+#include "graphics/gl/uniform_block.h"
+#include "graphics/shading/glsl.h"
+#include "reflections/methods/bindings.h"
 #include "reflections/methods/light_jump.h"
 #include "reflections/methods/settings.h"
 #include "reflections/probes/cube_map_reflections.h"
 
 namespace parvis::probes {
+
+namespace boxes_shared {
+using namespace parvis::shading;
+#include "reflections/probes/probe_boxes_block.glsl"
+}  // namespace boxes_shared
 
 /// Settings of time_sliced_cube_map.
 struct TimeSlicing {
@@ -136,12 +144,12 @@ class BoxProjectedProbe final : public CubeMapReflections {
                    const std::vector<methods::VisibleReflector>& reflectors) override;
   void forget_surroundings() override;
   ProbePair probes_about(glm::vec3 place);
-  static void set_box(const gl::Program& program, int i, const Probe& probe);
   void bake(Probe& probe, render::Renderer& renderer);
 
   int resolution_;
   std::deque<Probe> probes_;  ///< places stay when one is added
   std::map<int, ProbePair> probes_of_object_;
+  gl::UniformBlock<boxes_shared::ProbeBoxes> boxes_{"ProbeBoxes", methods::first_method_block};
 };
 
 }  // namespace parvis::probes

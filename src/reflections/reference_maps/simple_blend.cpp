@@ -6,6 +6,12 @@
 
 namespace parvis::reference_maps {
 
+void BlendedMapsBlock::bind(const gl::Program& program, const ReferenceMaps& maps,
+                            const MapPair& pair) const {
+  block_.bind(program, {.layer_size = glm::vec2(float(maps.resolution()), float(ReferenceMaps::border)),
+                        .map_pair = glm::vec2(float(pair.first), float(pair.second))});
+}
+
 void SimpleBlend::update_maps(render::Renderer& renderer, const scene::Scene&,
                               const std::vector<methods::VisibleReflector>& reflectors) {
   pair_of_object_.resize(renderer.gpu().object_bounds().size());
@@ -16,8 +22,7 @@ void SimpleBlend::update_maps(render::Renderer& renderer, const scene::Scene&,
 void SimpleBlend::bind(const gl::Program& program, int object) {
   const MapPair& pair = pair_of_object_[std::size_t(object)];
   gl::bind_textures(program, {{"map_colours", methods::first_method_unit, maps_.colours()}});
-  program.set("layer_size", glm::vec2(float(maps_.resolution()), float(ReferenceMaps::border)));
-  program.set("map_pair", glm::vec2(float(pair.first), float(pair.second)));
+  blended_.bind(program, maps_, pair);
 }
 
 Result<std::unique_ptr<methods::Reflections>> make_simple_blend(const scene::Scene& scene,

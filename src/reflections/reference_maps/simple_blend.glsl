@@ -2,8 +2,7 @@
 // alone and mixed half and half. Wrong near by, where it shows everything twice; far away a body is too small
 // to tell. Needs octahedral.glsl.
 uniform highp sampler2DArray map_colours;
-uniform vec2 layer_size;  // texels per side, and of its border
-uniform vec2 map_pair;
+#include "reflections/reference_maps/simple_blend_block.glsl"
 
 const float layer_texel_rad =
     3.545f;  // the sphere's area over that of the square: a layer of one texel spans so much

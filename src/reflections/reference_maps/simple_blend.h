@@ -2,11 +2,29 @@
 // direction alone and averaged. Local maps fall back to it in the distance and are compared with it.
 #pragma once
 
+#include "graphics/gl/uniform_block.h"
+#include "graphics/shading/glsl.h"
+#include "reflections/methods/bindings.h"
 #include "reflections/methods/reflections.h"
 #include "reflections/reference_maps/map_pair.h"
 #include "reflections/reference_maps/reference_maps.h"
 
 namespace parvis::reference_maps {
+
+namespace simple_blend_block {
+using namespace parvis::shading;
+#include "reflections/reference_maps/simple_blend_block.glsl"
+}  // namespace simple_blend_block
+
+/// The uniform block of simple_blend.glsl, for methods that include it.
+class BlendedMapsBlock {
+ public:
+  /// Hands a program the pair of maps that it blends; `maps` holds them.
+  void bind(const gl::Program& program, const ReferenceMaps& maps, const MapPair& pair) const;
+
+ private:
+  gl::UniformBlock<simple_blend_block::BlendedMaps> block_{"BlendedMaps", methods::first_method_block};
+};
 
 /// Creates the method for a scene; bakes the reference maps. Errors: a shader, or the baking.
 Result<std::unique_ptr<methods::Reflections>> make_simple_blend(
@@ -31,6 +49,7 @@ class SimpleBlend final : public methods::Reflections {
   ReferenceMaps maps_;
   MapChoice choice_;
   std::vector<MapPair> pair_of_object_;
+  BlendedMapsBlock blended_;
 };
 
 }  // namespace parvis::reference_maps

@@ -14,4 +14,12 @@ enum TextureUnit : GLuint {
   grid_results_unit
 };
 
+/// The uniform blocks of curved reflectors.
+enum UniformBlock : GLuint {
+  patch_view_block = methods::first_overlay_block,
+  second_mirror_block,
+  glass_light_block,
+  refraction_block
+};
+
 }  // namespace parvis::reflector_maps

@@ -4,10 +4,18 @@
 #include <optional>
 #include <span>
 
+#include "graphics/gl/uniform_block.h"
 #include "graphics/render/view.h"
+#include "graphics/shading/glsl.h"
+#include "reflections/reflector_maps/bindings.h"
 #include "reflections/reflector_maps/gpu_reflector.h"
 
 namespace parvis::reflector_maps {
+
+namespace patch_view_shared {
+using namespace parvis::shading;
+#include "reflections/reflector_maps/patch_view_block.glsl"
+}  // namespace patch_view_shared
 
 /// True for a uniform scale without mirroring: the transform keeps angles, so that the maps' normals stay
 /// valid.
@@ -24,6 +32,21 @@ struct ShownPatch {
   const GpuReflector::Patch* patch;
   glm::mat4 world_from_reflector;
   glm::vec3 viewer;  ///< in the reflector's frame
+};
+
+/// The uniform block of a patch that is drawn where the view shows it.
+class PatchViewBlock {
+ public:
+  /// Hands a program the patch as a view shows it, and the reflectance of its mirror.
+  void bind(const gl::Program& program, const ShownPatch& patch, const glm::mat4& clip_from_world,
+            glm::vec3 mirror_colour = glm::vec3(1.0f)) const {
+    block_.bind(program, {.clip_from_reflector = clip_from_world * patch.world_from_reflector,
+                          .viewer_in_reflector = glm::vec4(patch.viewer, 1.0f),
+                          .mirror_colour = glm::vec4(mirror_colour, 1.0f)});
+  }
+
+ private:
+  gl::UniformBlock<patch_view_shared::PatchView> block_{"PatchView", patch_view_block};
 };
 
 /// Range of layers in which a patch is drawn, numbered as in patch_search.glsl; `end` is excluded.

@@ -9,12 +9,10 @@
 #include "reflections/reflector_maps/patch_uniforms.glsl"
 #include "reflections/refraction/glass_rays.glsl"
 
-uniform vec3 viewer_in_reflector;
-uniform float glass_ior;
-uniform vec3 glass_absorption;  // of a unit of the reflector's frame
+#include "reflections/reflector_maps/patch_view_block.glsl"
+#include "reflections/refraction/glass_light_block.glsl"
+
 uniform samplerCube surroundings;
-uniform float surroundings_levels;  // below 0: none, the sky stands for them
-uniform int shown_part;
 
 in vec3 at_reflector;
 out vec4 radiance;
@@ -33,11 +31,12 @@ vec3 light_from(vec3 place, vec3 direction) {
 void main() {
   SurfacePoint at = surface_at(at_reflector - map_centre);
   vec3 position = at.position;
-  vec3 direction = refracted(normalize(at_reflector - viewer_in_reflector), at.normal, 1.0f / glass_ior);
+  float glass_ior = glass_absorption.w;
+  vec3 direction = refracted(normalize(at_reflector - viewer_in_reflector.xyz), at.normal, 1.0f / glass_ior);
   vec3 share = vec3(1.0f), behind = vec3(0.0f), let = vec3(0.0f), inside = vec3(0.0f);
   for (int bounce = 0; bounce <= inner_bounces; ++bounce) {
     SurfacePoint exit = far_side(map_centre, map_size.z, position, direction);
-    share *= exp(-distance(exit.position, position) * glass_absorption);
+    share *= exp(-distance(exit.position, position) * glass_absorption.rgb);
     vec3 out_way = refracted(direction, -exit.normal, glass_ior);
     bool leaves = dot(out_way, out_way) > 0.0f;
     float kept = leaves ? inner_reflectance(glass_ior, dot(out_way, exit.normal)) : 1.0f;

@@ -205,15 +205,14 @@ void RefractedObjects::draw_light(const render::View& view, std::size_t i, int p
   glass_light_.use();
   GpuReflector::bind(glass_light_, *shown.patch, shown.world_from_reflector, reflector_unit);
   const methods::CubeMap* surroundings = surroundings_of(shown.object);
-  if (surroundings) glBindTextureUnit(methods::first_method_unit, surroundings->texture());
-  glass_light_.set("surroundings", int(methods::first_method_unit));
-  glass_light_.set("surroundings_levels",
-                   surroundings ? std::log2(float(surroundings->resolution())) : -1.0f);
-  glass_light_.set("clip_from_reflector", view.clip_from_world * shown.world_from_reflector);
-  glass_light_.set("viewer_in_reflector", shown.viewer);
-  glass_light_.set("glass_ior", glass.ior);
-  glass_light_.set("glass_absorption", glm::length(shown.world_from_reflector[0]) * glass.absorption_per_m);
-  glass_light_.set("shown_part", part);
+  gl::bind_textures(glass_light_, {{"surroundings", methods::first_method_unit,
+                                    surroundings ? surroundings->texture() : 0}});
+  patch_view_.bind(glass_light_, shown, view.clip_from_world);
+  const glm::vec3 absorption = glm::length(shown.world_from_reflector[0]) * glass.absorption_per_m;
+  light_.bind(glass_light_,
+              {.glass_absorption = glm::vec4(absorption, glass.ior),
+               .surroundings_levels = surroundings ? std::log2(float(surroundings->resolution())) : -1.0f,
+               .shown_part = part});
   shown.reflector->draw(*shown.patch);
   glEnable(GL_DEPTH_TEST);
 }
@@ -240,9 +239,10 @@ void RefractedObjects::update_maps(render::Renderer& renderer, const scene::Scen
 void RefractedObjects::bind(const gl::Program& program) {
   const ShownPatch& shown = shown_[current_];
   GpuReflector::bind(program, *shown.patch, shown.world_from_reflector, reflector_unit);
-  program.set("refraction_rays", std::span<const glm::mat4>(through_[current_].rays));
-  program.set("glass_ior", through_[current_].glass->ior);
-  program.set("passed_by_light", foci_);
+  refraction_shared::Refraction values{
+      .refraction_rays = {}, .glass_ior = through_[current_].glass->ior, .passed_by_light = foci_};
+  std::ranges::copy(through_[current_].rays, values.refraction_rays);
+  refraction_.bind(program, values);
 }
 
 /// Does a ray that leaves the glass come near, having passed as many foci as those of this layer?

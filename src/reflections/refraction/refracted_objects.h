@@ -23,6 +23,11 @@
 namespace parvis::refraction {
 using namespace reflection_search;
 using namespace reflector_maps;
+namespace refraction_shared {
+using namespace parvis::shading;
+#include "reflections/refraction/glass_light_block.glsl"
+#include "reflections/refraction/refraction_block.glsl"
+}  // namespace refraction_shared
 
 /// The overlay that renders refraction, and the vertex shader's search for it.
 class RefractedObjects final : public methods::Overlay, public render::VirtualVertices {
@@ -69,6 +74,9 @@ class RefractedObjects final : public methods::Overlay, public render::VirtualVe
   std::unordered_map<const scene::Model*, std::vector<Glass>> glass_;
   std::vector<const scene::Model*> model_of_object_;
   gl::Program patch_pixels_, glass_light_;
+  PatchViewBlock patch_view_;
+  gl::UniformBlock<refraction_shared::GlassLight> light_{"GlassLight", glass_light_block};
+  gl::UniformBlock<refraction_shared::Refraction> refraction_{"Refraction", refraction_block};
   VirtualPicture picture_;
   bool shows_all_;
   float within_m_;

@@ -4,7 +4,7 @@
 #include "reflections/reflector_maps/patch_uniforms.glsl"
 #include "reflections/refraction/glass_rays.glsl"
 
-uniform float glass_ior;
+#include "reflections/refraction/refraction_block.glsl"
 
 in float is_lost;       // 0 where the glass shows all corners
 in float is_elsewhere;  // 1 where another layer shows all corners: what is clear would be blended twice

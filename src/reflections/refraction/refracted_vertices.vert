@@ -3,11 +3,8 @@
 // hidden by them.
 #include SURFACE_VERTEX "graphics/render/surface_vertex.glsl"
 #include "reflections/reflector_maps/patch_uniforms.glsl"
-#include "reflections/refraction/refraction_limits.glsl"
 
-uniform mat4 refraction_rays[refraction_start_count];
-uniform float glass_ior;
-uniform int passed_by_light;  // how many foci
+#include "reflections/refraction/refraction_block.glsl"
 
 mat4 refraction_start(int i) { return refraction_rays[i]; }
 

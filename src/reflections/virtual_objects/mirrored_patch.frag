@@ -2,7 +2,7 @@
 #include "reflections/reflector_maps/patch_uniforms.glsl"
 #include "reflections/virtual_objects/mirrored_triangle.glsl"
 
-uniform vec3 viewer_in_world;
+#include "reflections/virtual_objects/second_mirror_block.glsl"
 
 in float certainty;
 in float height;
@@ -15,7 +15,7 @@ void main() {
   if (!is_shown_whole(certainty, height, shown_by)) discard;
   // Layers hold the corners of a triangle in different images.
   if (patch_layer >= 0 &&
-      !is_mirrored(moved(reflector_from_world, viewer_in_world), moved(reflector_from_world, seen_from),
+      !is_mirrored(moved(reflector_from_world, viewer_in_world.xyz), moved(reflector_from_world, seen_from),
                    moved(reflector_from_world, at_second)))
     discard;
   radiance = vec4(0.0f);

@@ -3,13 +3,11 @@
 
 layout(location = 0) in vec3 reflector_position;
 
-uniform mat4 clip_from_world;
-uniform mat4 world_from_second;
-uniform vec3 viewer_in_world;
+#include "reflections/virtual_objects/second_mirror_block.glsl"
 
 out vec3 at_second;  // in the world
 
 void main() {
   at_second = moved(world_from_second, reflector_position);
-  gl_Position = clip_from_world * vec4(virtual_place(viewer_in_world, at_second), 1.0f);
+  gl_Position = clip_of_view * vec4(virtual_place(viewer_in_world.xyz, at_second), 1.0f);
 }

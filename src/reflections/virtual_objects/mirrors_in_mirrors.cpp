@@ -70,12 +70,13 @@ void MirrorsInMirrors::mark_seconds(const render::View& view, int first_number) 
   glDisable(GL_CULL_FACE);  // a mirror image may be turned over
   glStencilMask(second_bits);
   mirrored_patch_.use();
-  mirrored_patch_.set("clip_from_world", view.clip_from_world);
-  mirrored_patch_.set("viewer_in_world", view.position_in_world);
   const Layers first_layers = layers_of(*first_->patch);
   for (std::size_t i = 0; i < seconds_.size(); ++i) {
     glStencilFunc(GL_EQUAL, GLint((i + 1) << 4) | first_number, first_bits);
-    mirrored_patch_.set("world_from_second", seconds_[i].world_from_reflector);
+    second_mirror_.bind(mirrored_patch_, {.clip_of_view = view.clip_from_world,
+                                          .world_from_second = seconds_[i].world_from_reflector,
+                                          .viewer_in_world = glm::vec4(view.position_in_world, 1.0f),
+                                          .second_middle = glm::vec4(0.0f)});
     glBeginQuery(GL_ANY_SAMPLES_PASSED, is_seen_[i].name());
     for (int layer = first_layers.first; layer < first_layers.end; ++layer) {
       GpuReflector::bind(mirrored_patch_, *first_->patch, first_->world_from_reflector, reflector_unit,
@@ -130,7 +131,10 @@ void MirrorsInMirrors::bind(const gl::Program& program) {
   GpuReflector::bind(program, *first_->patch, first_->world_from_reflector, reflector_unit, first_layer_);
   GpuReflector::bind(program, *second_->patch, second_->world_from_reflector, second_reflector_unit,
                      second_layer_, 1);
-  program.set("second_middle", bounds_in_world(*second_).centre());
+  second_mirror_.bind(program, {.clip_of_view = glm::mat4(1.0f),
+                                .world_from_second = second_->world_from_reflector,
+                                .viewer_in_world = glm::vec4(0.0f),
+                                .second_middle = glm::vec4(bounds_in_world(*second_).centre(), 1.0f)});
 }
 
 }  // namespace parvis::virtual_objects

@@ -15,6 +15,10 @@
 namespace parvis::virtual_objects {
 using namespace reflection_search;
 using namespace reflector_maps;
+namespace second_mirror_shared {
+using namespace parvis::shading;
+#include "reflections/virtual_objects/second_mirror_block.glsl"
+}  // namespace second_mirror_shared
 
 /// Renders the second reflections of a frame into one image.
 class MirrorsInMirrors final : public render::VirtualVertices {
@@ -42,6 +46,7 @@ class MirrorsInMirrors final : public render::VirtualVertices {
   static constexpr std::size_t maximum = 15;  ///< of each kind: their numbers share a stencil of eight bits
 
   gl::Program mirrored_patch_;
+  gl::UniformBlock<second_mirror_shared::SecondMirror> second_mirror_{"SecondMirror", second_mirror_block};
   VirtualPicture picture_;
   std::array<gl::Query, maximum> is_seen_;  ///< by number of the second
   std::vector<ShownPatch> firsts_, seconds_;

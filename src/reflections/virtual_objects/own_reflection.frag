@@ -3,8 +3,7 @@
 #include "graphics/render/sky_lookup.glsl"
 #include "reflections/reflector_maps/patch_uniforms.glsl"
 
-uniform vec3 viewer_in_reflector;
-uniform vec3 mirror_colour;  // what the surface gives back of what it mirrors
+#include "reflections/reflector_maps/patch_view_block.glsl"
 
 in vec3 at_reflector;
 out vec4 radiance;
@@ -21,7 +20,7 @@ float beyond(vec3 point) {
 
 void main() {
   SurfacePoint at = surface_at(at_reflector - map_centre);
-  vec3 direction = reflect(normalize(at.position - viewer_in_reflector), at.normal);
+  vec3 direction = reflect(normalize(at.position - viewer_in_reflector.xyz), at.normal);
   float step_m = 2.0f * map_size.z / float(walk_steps);
   float inside = 0.0f, outside = 0.0f;
   for (int i = 1; i <= walk_steps && outside == 0.0f; ++i) {
@@ -45,7 +44,7 @@ void main() {
   vec3 normal = normalize(mat3(world_from_reflector) * met.normal);
   vec3 mirrored = reflect(normalize(mat3(world_from_reflector) * direction), normal);
   vec4 cell = sky_visibility_cell(moved(world_from_reflector, met.position), normal);
-  radiance =
-      vec4(mirror_colour * sky_share_of_direction(cell, mirrored) * sky_radiance(mirrored, mirror_roughness),
-           1.0f);
+  radiance = vec4(
+      mirror_colour.rgb * sky_share_of_direction(cell, mirrored) * sky_radiance(mirrored, mirror_roughness),
+      1.0f);
 }

@@ -1,7 +1,7 @@
 // A concave surface, for own_reflection.frag.
 layout(location = 0) in vec3 reflector_position;
 
-uniform mat4 clip_from_reflector;
+#include "reflections/reflector_maps/patch_view_block.glsl"
 
 out vec3 at_reflector;
 

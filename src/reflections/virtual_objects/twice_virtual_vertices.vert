@@ -11,7 +11,7 @@ vec3 across(vec3 point, int to) {
 
 #include "reflections/reflection_search/two_bounce_search.glsl"
 
-uniform vec3 second_middle;  // in the world
+#include "reflections/virtual_objects/second_mirror_block.glsl"
 
 out vec3 seen_first_from;
 out vec3 shown_first_by;
@@ -21,7 +21,7 @@ void main() {
   surface_vertex();
   turn_to(0);
   ReflectionTask first = ReflectionTask(moved(reflector_from_world, viewer_position.xyz),
-                                        moved(reflector_from_world, second_middle), map_centre);
+                                        moved(reflector_from_world, second_middle.xyz), map_centre);
   PatchKind first_kind = patch_kind_of_mirror();
   turn_to(1);
   ReflectionTask second = ReflectionTask(vec3(0.0f), moved(reflector_from_world, position), map_centre);

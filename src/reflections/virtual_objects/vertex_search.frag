@@ -4,7 +4,7 @@
 #include "reflections/virtual_objects/grid_table.glsl"
 
 uniform vec2 results_size;
-uniform vec3 viewer_in_reflector;
+#include "reflections/reflector_maps/patch_view_block.glsl"
 
 flat in vec4 world_from_corner_row0;
 flat in vec4 world_from_corner_row1;
@@ -22,7 +22,7 @@ void main() {
   vec4 p = vec4(corner_position(grid_and_row.x, corner), 1.0f);
   vec3 in_world =
       vec3(dot(world_from_corner_row0, p), dot(world_from_corner_row1, p), dot(world_from_corner_row2, p));
-  VirtualPoint point = virtual_point(viewer_in_reflector, moved(reflector_from_world, in_world));
+  VirtualPoint point = virtual_point(viewer_in_reflector.xyz, moved(reflector_from_world, in_world));
   image = vec4(point.image, point.certainty);
   seen_from = vec4(point.seen_from, 0.0f);
   shown_by = vec4(point.shown_by, 0.0f);

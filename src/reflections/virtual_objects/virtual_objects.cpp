@@ -205,9 +205,8 @@ void VirtualObjects::draw_own_reflections(const render::View& view) {
     glStencilFunc(GL_EQUAL, GLint(i) + 1, 0xff);
     current_ = &shown_[i];
     bind(own_reflection_);
-    own_reflection_.set("clip_from_reflector", view.clip_from_world * shown_[i].world_from_reflector);
-    own_reflection_.set("viewer_in_reflector", shown_[i].viewer);
-    own_reflection_.set("mirror_colour", colour_of_object_[std::size_t(shown_[i].object)]);
+    patch_view_.bind(own_reflection_, shown_[i], view.clip_from_world,
+                     colour_of_object_[std::size_t(shown_[i].object)]);
     shown_[i].reflector->draw(*shown_[i].patch);
   }
   current_ = nullptr;
@@ -291,7 +290,7 @@ glm::ivec2 VirtualObjects::add(const render::Item& item) {
 void VirtualObjects::prepare() {
   vertex_search_.search([this](const gl::Program& program) {
     bind(program);
-    program.set("viewer_in_reflector", current_->viewer);
+    patch_view_.bind(program, *current_, glm::mat4(1.0f));
   });
 }
 

@@ -60,6 +60,7 @@ class VirtualObjects final : public methods::Overlay, public render::VirtualVert
   std::vector<const scene::Model*> model_of_object_;
   std::vector<glm::vec3> colour_of_object_;  ///< of its mirrors
   gl::Program patch_pixels_, own_reflection_;
+  PatchViewBlock patch_view_;
   VirtualPicture picture_;
   VertexSearch vertex_search_;
   std::unique_ptr<MirrorsInMirrors> in_mirrors_;  ///< null: they show the sky
