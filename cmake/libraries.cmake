@@ -29,6 +29,10 @@ pkg_check_modules(proj REQUIRED IMPORTED_TARGET proj)
 pkg_check_modules(mpi REQUIRED IMPORTED_TARGET ompi-c)
 pkg_check_modules(sqlite3 REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
+pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
+pkg_check_modules(ebur128 REQUIRED IMPORTED_TARGET libebur128)
+pkg_check_modules(openal REQUIRED IMPORTED_TARGET openal)
+pkg_check_modules(liblo REQUIRED IMPORTED_TARGET liblo)
 find_library(citygml_library citygml REQUIRED)  # its .pc asks for packages that Debian's does not bring
 
 # libosmium is headers alone; what it reads OpenStreetMap's two formats with is linked by those who include it.

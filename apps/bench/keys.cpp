@@ -51,7 +51,7 @@ constexpr Key keys[]{
     {"drag_fps", "fps", minimum(10.0), "the same view: a stone bench dragged over the kept picture, all pixels", {{"drag_fps_of_whole_pictures"}}},
     {"drag_picture_flip", "FLIP", maximum(0.02), "the bench's pixels, held against drawn whole", {{"drag_picture_flip_3_cm_beside"}}},
     {"scenario_switch_ms", "ms", maximum(100.0), "paper city, two designs of five objects, 1280x720, on a walk whose rate of 10 fps is held: from the choice to its picture", {{"scenario_switch_ms_of_whole_pictures"}}},
-    {"scenario_switch_ms_beyond_a_frame", "ms", {}, "the same, beyond an ordinary frame of the walk"},
+    {"scenario_switch_ms_beyond_an_ordinary_one", "ms", {}, "the same, beyond an ordinary frame of the walk"},
     {"sketch_edge_px", "px", maximum(1.0), "40 boxes, three views, 1280x720: the farthest ink from an edge that rays of the eye reach", {{"sketch_edge_px_of_boxes_5_cm_aside"}}},
     {"sketch_edges_without_ink_percent", "%", {}, "the same views: edges that rays reach, and no ink within a pixel"},
     {"plan_precision_mm", "mm", maximum(1.0), "40 bollards: rays to their sides against what was typed", {{"plan_precision_mm_to_the_centimetre"}}},

@@ -109,9 +109,9 @@ class FilmSound {
   Status hear(const std::string& camera) {
     const Result<Camera> ears = stage_.camera(camera);
     if (!ears) return ears.errors();
-    left_.resize(left_.size() + moment_, 0.0f), right_.resize(left_.size(), 0.0f);
-    listening_.hear(stage_.scene(), *ears, stage_.simulation().clock.time_s(), std::span(left_).last(moment_),
-                    std::span(right_).last(moment_));
+    for (std::vector<float>& channel : channels_) channel.resize(channel.size() + moment_, 0.0f);
+    const std::array now{std::span(channels_[0]).last(moment_), std::span(channels_[1]).last(moment_)};
+    listening_.hear(stage_.scene(), *ears, stage_.simulation().clock.time_s(), now);
     return Ok{};
   }
   /// A file of all that was heard, 20 dB louder than `parvis sound` writes: 0 dBFS stands for 80 dB, or for
@@ -119,18 +119,18 @@ class FilmSound {
   std::string wave() {
     constexpr float gain = 10.0f;
     float loudest = 0.1f;
-    for (const std::vector<float>* channel : {&left_, &right_})
-      for (const float sample : *channel) loudest = std::max(loudest, std::abs(sample));
-    for (std::vector<float>* channel : {&left_, &right_})
-      for (float& sample : *channel) sample *= std::min(gain, 1.0f / loudest);
-    return sound::encode_wave(left_, right_);
+    for (const std::vector<float>& channel : channels_)
+      for (const float sample : channel) loudest = std::max(loudest, std::abs(sample));
+    for (std::vector<float>& channel : channels_)
+      for (float& sample : channel) sample *= std::min(gain, 1.0f / loudest);
+    return sound::encode_wave(channels_, sound::Output::stereo);
   }
 
  private:
   stage::Stage& stage_;
   sound::Listening listening_;
   std::size_t moment_;
-  std::vector<float> left_, right_;
+  std::array<std::vector<float>, 2> channels_;
 };
 
 /// A film whose frames several processes divide, or have begun to.

@@ -21,8 +21,6 @@ struct SoundArguments {
   double seconds = 10.0, speed_m_s = 1.4, gain_db = 0.0;
 };
 
-constexpr std::array sound_outputs{"headphones", "stereo", "microphone"};  // in the order of sound::Output
-
 /// The walk of --camera-path; no points: the scene's camera is heard with.
 Result<scene::MeasuredPath> read_walk(const SoundArguments& arguments) {
   if (arguments.path.empty()) return scene::MeasuredPath();
@@ -53,13 +51,14 @@ Status run_sound(const SoundArguments& arguments) {
   if (!walk) return walk.errors();
   Result<stage::Simulation> simulation = arguments.scene.open_simulation();
   if (!simulation) return simulation.errors();
-  const auto output =
-      sound::Output(std::ranges::find(sound_outputs, arguments.output_kind) - sound_outputs.begin());
+  const auto output = sound::Output(std::ranges::find(sound::output_names, arguments.output_kind) -
+                                    sound::output_names.begin());
   sound::Listening listening(simulation->scene, output);
 
   constexpr std::size_t moment = sound::sample_rate / 60;  // the clock's step
   const auto moments = std::size_t(std::ceil(arguments.seconds * 60.0));
-  std::vector<float> left(moments * moment, 0.0f), right(left);
+  std::vector<std::vector<float>> channels(sound::channels_of(output).size(),
+                                           std::vector<float>(moments * moment, 0.0f));
   Progress progress("sound", moments);
   std::size_t sounds = 0;
   for (std::size_t i = 0; i < moments; ++i, progress.advance()) {
@@ -74,19 +73,22 @@ Status run_sound(const SoundArguments& arguments) {
     } else {
       ears = walker_at(*walk, arguments.speed_m_s * now_s);
     }
-    listening.hear(simulation->scene, ears, simulation->clock.time_s(),
-                   std::span(left).subspan(i * moment, moment), std::span(right).subspan(i * moment, moment));
-    sounds = std::max(sounds, listening.counts().sounds);
+    std::vector<std::span<float>> now;
+    for (std::vector<float>& channel : channels)
+      now.push_back(std::span(channel).subspan(i * moment, moment));
+    listening.hear(simulation->scene, ears, simulation->clock.time_s(), now);
+    sounds = std::max(sounds, listening.sources());
   }
   const float gain = float(std::pow(10.0, arguments.gain_db / 20.0));
   double energy = 0.0;
   float loudest = 0.0f;
-  for (std::vector<float>* channel : {&left, &right})
-    for (float& sample : *channel)
-      sample *= gain, energy += 0.5 * double(sample) * double(sample),
+  for (std::vector<float>& channel : channels)
+    for (float& sample : channel)
+      sample *= gain, energy += double(sample) * double(sample),
           loudest = std::max(loudest, std::abs(sample));
+  if (channels.size() == 2) energy *= 0.5;  // of one ear; loudspeakers add up
   std::size_t clipped = 0;
-  const std::string bytes = sound::encode_wave(left, right, &clipped);
+  const std::string bytes = sound::encode_wave(channels, output, &clipped);
   if (Status status = write_together({{arguments.output, bytes}}); !status) return status;
   if (sounds == 0)
     fmt::print(stderr, "warning: nothing sounds in the scene: add sound(...), traffic(...) or tram(...)\n");
@@ -94,10 +96,11 @@ Status run_sound(const SoundArguments& arguments) {
     fmt::print(stderr,
                "warning: {} samples are louder than the file can hold and are clipped; give --gain -{:.0f}\n",
                clipped, std::ceil(20.0 * std::log10(double(loudest))));
-  fmt::print("{}: {:g} s, at most {} sounds; mean level {:.1f} dB, where 0 dBFS stands for {:.0f} dB\n",
-             arguments.output.string(), arguments.seconds, sounds,
-             propagation::level(energy / double(left.size())) + sound::full_scale_db - arguments.gain_db,
-             sound::full_scale_db - arguments.gain_db);
+  fmt::print(
+      "{}: {:g} s, at most {} sounds; mean level {:.1f} dB, where 0 dBFS stands for {:.0f} dB\n",
+      arguments.output.string(), arguments.seconds, sounds,
+      propagation::level(energy / double(channels[0].size())) + sound::full_scale_db - arguments.gain_db,
+      sound::full_scale_db - arguments.gain_db);
   return Ok{};
 }
 
@@ -119,10 +122,11 @@ void add_sound(CLI::App& app, Chosen& chosen) {
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
   command
-      ->add_option(
-          "--for", arguments->output_kind,
-          "headphones (a head's delays and shadow), stereo (two loudspeakers) or microphone (no directions)")
-      ->check(CLI::IsMember(std::vector<std::string>(sound_outputs.begin(), sound_outputs.end())))
+      ->add_option("--for", arguments->output_kind,
+                   "headphones (a head's delays and shadow), stereo, 4.0, 5.1 or 7.1 (loudspeakers), or "
+                   "microphone (no "
+                   "directions)")
+      ->check(CLI::IsMember(std::vector<std::string>(sound::output_names.begin(), sound::output_names.end())))
       ->capture_default_str();
   command->add_option("--gain", arguments->gain_db, "In dB: 0 has 0 dBFS stand for 100 dB")
       ->check(CLI::Range(-60.0, 60.0))

@@ -340,6 +340,22 @@ std::vector<dvec2> Site::reflected_line(const Place& source, const Place& receiv
   return line;
 }
 
+std::optional<Site::WallHit> Site::reflecting_wall(dvec2 from, dvec2 to, int but) const {
+  const int hit = rays_->nearest(
+      from, to, [&](int wall) { return wall != but && walls_[std::size_t(wall)].absorption.has_value(); });
+  if (hit < 0) return std::nullopt;
+  const Wall& wall = walls_[std::size_t(hit)];
+  const std::optional<dvec2> at = intersection(from, to, wall.a, wall.b);
+  if (!at || at->x < 0.0) return std::nullopt;
+  return WallHit{hit, at->x * glm::distance(from, to), top_at(wall, at->y)};
+}
+
+dvec2 Site::turned_by(int wall, dvec2 direction) const {
+  const Wall& mirror = walls_[std::size_t(wall)];
+  const dvec2 normal = glm::normalize(dvec2(mirror.a.y - mirror.b.y, mirror.b.x - mirror.a.x));
+  return direction - 2.0 * glm::dot(direction, normal) * normal;
+}
+
 std::vector<WallSequence> Site::sequences_seen_from(dvec2 receiver, const PathChoice& choice) const {
   std::set<WallSequence> found;
   for (int i = 0; i < choice.directions && choice.reflections > 0; ++i) {
@@ -348,20 +364,13 @@ std::vector<WallSequence> Site::sequences_seen_from(dvec2 receiver, const PathCh
     double left_m = choice.max_length_m;
     WallSequence sequence;
     for (int order = 0; order < choice.reflections; ++order) {
-      const int last = sequence.empty() ? -1 : sequence.front();
-      const int hit = rays_->nearest(from, from + along * left_m, [&](int wall) {
-        return wall != last && walls_[std::size_t(wall)].absorption.has_value();
-      });
-      if (hit < 0) break;
-      const Wall& wall = walls_[std::size_t(hit)];
-      const std::optional<dvec2> at = intersection(from, from + along * left_m, wall.a, wall.b);
-      if (!at || at->x < 0.0) break;
-      sequence.insert(sequence.begin(), hit);  // from the source to the receiver
+      const auto hit = reflecting_wall(from, from + along * left_m, sequence.empty() ? -1 : sequence.front());
+      if (!hit) break;
+      sequence.insert(sequence.begin(), hit->wall);  // from the source to the receiver
       found.insert(sequence);
-      from += along * (at->x * left_m);
-      left_m *= 1.0 - at->x;
-      const dvec2 normal = glm::normalize(dvec2(wall.a.y - wall.b.y, wall.b.x - wall.a.x));
-      along -= 2.0 * glm::dot(along, normal) * normal;
+      from += along * hit->distance_m;
+      left_m -= hit->distance_m;
+      along = turned_by(hit->wall, along);
     }
   }
   return {found.begin(), found.end()};

@@ -80,6 +80,17 @@ class Site {
   std::vector<glm::dvec2> corners_around(const Place& source, const Place& receiver, Condition condition,
                                          bool is_left, double max_length_m) const;
 
+  /// A wall that a line in plan meets.
+  struct WallHit {
+    int wall;
+    double distance_m;  ///< from the line's begin
+    double top_z;       ///< of the wall there
+  };
+  /// The nearest wall that reflects along a line, other than `but`; nothing where there is none.
+  std::optional<WallHit> reflecting_wall(glm::dvec2 from, glm::dvec2 to, int but = -1) const;
+  /// A direction in plan after its reflection by a wall.
+  glm::dvec2 turned_by(int wall, glm::dvec2 direction) const;
+
   /// Plan points of the path that the walls reflect, source and receiver included (image sources); empty
   /// where a point of reflection would lie beside its wall or on its back.
   std::vector<glm::dvec2> reflected_line(const Place& source, const Place& receiver,

@@ -22,25 +22,64 @@ Octaves Listening::level_at(const Emitter& emitter, glm::dvec3 place) const {
   return levels;
 }
 
-void Listening::hear(const scene::Scene& scene, const Camera& ears, double time_s, std::span<float> left,
-                     std::span<float> right) {
-  hear(sounds_.at(scene, double(left.size()) / sample_rate), ears, time_s, left, right);
+void Listening::hear(const scene::Scene& scene, const Camera& ears, double time_s, Buffers buffers) {
+  const std::size_t samples = buffers[0].size();
+  mixer_.mix(heard(scene, ears, time_s, double(samples) / sample_rate), buffers);
+  for (const Bed& bed : beds_of(scene)) bed.add(time_s, buffers);
 }
 
 void Listening::hear(std::span<const Emitter> emitters, const Camera& ears, double time_s,
                      std::span<float> left, std::span<float> right) {
+  mixer_.mix(heard(emitters, ears, time_s, double(left.size()) / sample_rate), left, right);
+}
+
+std::vector<HeardSound> Listening::heard(const scene::Scene& scene, const Camera& ears, double time_s,
+                                         double step_s) {
+  return heard(sounds_.at(scene, step_s), ears, time_s, step_s);
+}
+
+/// Noise of many reflections from four sides. Tones and recordings would be noise in it, and are left out.
+void Listening::add_late_field(std::span<const Emitter> emitters, const glm::dvec3& place, double time_s,
+                               double step_s, std::vector<HeardSound>& sounds) {
+  constexpr double found_again_m = 2.0;
+  if (!enclosed_at_ || glm::distance(*enclosed_at_, place) > found_again_m) {
+    enclosure_ = enclosure_about(*site_.site, place, paths_.reflections, air_);
+    enclosed_at_ = place;
+  }
+  Octaves power{};
+  for (const Emitter& emitter : emitters) {
+    if (emitter.kind >= SoundKind::birds || glm::distance(emitter.position, place) > enclosure_.reach_m)
+      continue;
+    const double fraction = has_events(emitter.kind) ? 0.1 : 1.0;  // as in the mixer
+    for (std::size_t band = 0; band < octaves; ++band)
+      power[band] += fraction * propagation::energy(emitter.power_db[band] - full_scale_db);
+  }
+  const Octaves& late = late_.advance(enclosure_, power, step_s);
+  constexpr std::array sides{glm::vec3(-1, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0),
+                             glm::vec3(0, -1, 0)};
+  for (std::size_t side = 0; side < sides.size(); ++side) {
+    HeardSound sound{.id = ~std::uint64_t(side), .kind = SoundKind::leaves, .direction = sides[side]};
+    for (std::size_t band = 0; band < octaves; ++band) sound.energy[band] = late[band] / double(sides.size());
+    sound.emitted_s = time_s;
+    if (std::ranges::any_of(sound.energy, [](double energy) { return energy > 1e-16; }))
+      sounds.push_back(std::move(sound));
+  }
+}
+
+std::vector<HeardSound> Listening::heard(std::span<const Emitter> emitters, const Camera& ears, double time_s,
+                                         double step_s) {
   const glm::dvec3 place(ears.world_from_camera[3]);
   const glm::mat3 camera_from_world = glm::transpose(glm::mat3(ears.world_from_camera));
   const auto sequences = site_.site->sequences_seen_from(glm::dvec2(place), paths_);
-  std::vector<HeardSound> heard(emitters.size());
+  std::vector<HeardSound> result(emitters.size());
   parallel_for(
       emitters.size(),
       [&](std::size_t i) {
         const Emitter& emitter = emitters[i];
-        HeardSound& sound = heard[i];
+        HeardSound& sound = result[i];
         const glm::dvec3 away = emitter.position - place;
         const double distance_m = std::max(glm::length(away), min_distance_m);
-        sound.id = emitter.id, sound.kind = emitter.kind;
+        sound.id = emitter.id, sound.kind = emitter.kind, sound.recording = emitter.recording;
         sound.emitted_s = time_s - distance_m / sound_speed_m_s;
         const glm::vec3 in_camera = camera_from_world * glm::vec3(away / distance_m);
         const glm::vec3 direction(in_camera.x, -in_camera.z, in_camera.y);
@@ -55,7 +94,9 @@ void Listening::hear(std::span<const Emitter> emitters, const Camera& ears, doub
               propagation::energy(levels[band] + emitter.power_db[band] - loss[band] - full_scale_db);
       },
       4);
-  mixer_.mix(heard, left, right);
+  add_late_field(emitters, place, time_s, step_s, result);
+  sources_ = emitters.size();
+  return result;
 }
 
 }  // namespace parvis::sound

@@ -6,8 +6,11 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
+#include "life/sound/ears.h"
+#include "life/sound/recording.h"
 #include "life/sound/sound_kind.h"
 
 namespace parvis::sound {
@@ -20,13 +23,7 @@ struct HeardSound {
   Octaves energy{};              ///< mean square pressure by octave, in the square of `reference`
   double emitted_s = 0.0;        ///< when it was emitted: earlier by the time of travel
   bool is_visible = false;       ///< visible sounds weigh more where clusters are chosen
-};
-
-/// Which ears or loudspeakers.
-enum class Output {
-  headphones,  ///< a spherical head of 8.75 cm (Woodworth's delay; shadow of Brown and Duda 1998)
-  stereo,      ///< two loudspeakers, 30 degrees to the left and right, by equal power
-  microphone   ///< both channels alike, without directions: levels are those of a sound level meter
+  std::shared_ptr<const Recording> recording = {};  ///< `energy` is then as if its octaves were equally loud
 };
 
 /// Budgets of the mixer.
@@ -47,9 +44,13 @@ class Mixer {
  public:
   explicit Mixer(Output output, const MixerLimits& limits = {});
 
-  /// Adds what is heard between the last moment and this one to both channels, which are equally long.
-  /// Amplitude 1 is the square root of unit energy.
+  /// Adds what is heard between the last moment and this one to all channels of the output. Amplitude 1 is
+  /// the square root of unit energy.
+  void mix(std::span<const HeardSound> sounds, Buffers buffers);
+  /// The same of outputs with two channels.
   void mix(std::span<const HeardSound> sounds, std::span<float> left, std::span<float> right);
+  /// The clusters of a moment of so many samples, before ears or loudspeakers; valid until the next call.
+  std::span<const Stream> premix(std::span<const HeardSound> sounds, std::size_t samples);
   /// Counts of the last mix.
   const MixCounts& counts() const { return counts_; }
 
@@ -57,13 +58,13 @@ class Mixer {
   struct Cluster {
     glm::vec3 direction{0, 1, 0}, next_direction{0, 1, 0};
     Octaves amplitude{}, next{};  ///< of its steady noise
-    double place = 0.0, rate = 1.0;
-    bool is_used = false;
-    std::array<float, 2> shadow_in{}, shadow_out{};  ///< the last sample of each ear's filter
-    std::vector<float> past;                         ///< samples before this moment, for delays
+    double place = 0.0;
+    bool is_used = false;    ///< something sounds in this moment
+    bool is_ending = false;  ///< its last sample has not reached the ears yet
   };
   struct Playing {
     SoundKind kind{};
+    std::shared_ptr<const Recording> recording;
     double emitted_s = 0.0;
     Octaves amplitude{};
     std::size_t cluster = 0;
@@ -72,16 +73,15 @@ class Mixer {
 
   void choose_clusters(std::span<const HeardSound> sounds);
   void play_events(std::span<const HeardSound> sounds);
-  void spatialise(Cluster& cluster, std::span<const float> signal, std::span<float> left,
-                  std::span<float> right) const;
 
-  Output output_;
+  Spatialiser spatialiser_;
   MixerLimits limits_;
   MixCounts counts_;
   std::vector<Cluster> clusters_;
   std::vector<std::size_t> order_, cluster_of_;  // of the sounds of this moment, loudest first; by sound
   std::vector<std::pair<std::uint64_t, Playing>> playing_;
   std::vector<std::vector<float>> signals_;
+  std::vector<Stream> streams_;
 };
 
 }  // namespace parvis::sound

@@ -25,6 +25,27 @@ glm::dvec3 place_of(const scene::Object& object, glm::vec3 offset) {
 
 }  // namespace
 
+void Bed::add(double time_s, Buffers buffers) const {
+  const auto length = std::ptrdiff_t(recording->left.size());
+  auto at = std::ptrdiff_t(std::llround(time_s * sample_rate)) - std::ptrdiff_t(buffers[0].size());
+  at = (at % length + length) % length;
+  for (std::size_t i = 0; i < buffers[0].size(); ++i, at = at + 1 == length ? 0 : at + 1) {
+    buffers[0][i] += gain * recording->left[std::size_t(at)];
+    buffers[1][i] += gain * recording->right[std::size_t(at)];
+  }
+}
+
+std::vector<Bed> beds_of(const scene::Scene& scene) {
+  std::vector<Bed> beds;
+  for (const PlacedSound& sound : scene.items<PlacedSound>()) {
+    if (!sound.is_on || sound.kind != SoundKind::bed || !sound.recording) continue;
+    const double gain =
+        propagation::energy(recording_db + sound.level_db - full_scale_db) / sound.recording->mean_square();
+    beds.push_back({sound.recording, float(std::sqrt(gain))});
+  }
+  return beds;
+}
+
 double SceneSounds::speed_of(std::uint64_t id, glm::dvec3 position, double step_s) {
   now_[id] = position;
   const auto before = last_.find(id);
@@ -37,7 +58,7 @@ std::vector<Emitter> SceneSounds::at(const scene::Scene& scene, double step_s) {
   std::vector<Emitter> emitters;
   now_.clear();
   for (const PlacedSound& sound : scene.items<PlacedSound>()) {
-    if (!sound.is_on) continue;
+    if (!sound.is_on || sound.kind == SoundKind::bed) continue;
     glm::dvec3 position(sound.position);
     if (!sound.follows.empty()) {
       const auto object = std::ranges::find(scene.objects, sound.follows, &scene::Object::name);
@@ -46,8 +67,10 @@ std::vector<Emitter> SceneSounds::at(const scene::Scene& scene, double step_s) {
     }
     const std::uint64_t id = id_of(sound.called, emitters.size());
     Octaves power = power_db(sound.kind, speed_of(id, position, step_s));
+    if (sound.recording)  // 11 dB from the level at 1 m to the sound power, which eight octaves share
+      power.fill(recording_db + 11.0 - 10.0 * std::log10(double(octaves)));
     for (double& level : power) level += sound.level_db;
-    emitters.push_back({id, sound.kind, position, power});
+    emitters.push_back({id, sound.kind, position, power, sound.recording});
   }
   for (const scene::Object& object : scene.objects) {
     if (!object.is_visible || !object.is_dynamic || !object.name.starts_with("vehicle ")) continue;

@@ -5,6 +5,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "life/sound/ears.h"
+#include "life/sound/recording.h"
 #include "life/sound/sound_kind.h"
 #include "scene/data/scene.h"
 
@@ -20,11 +22,13 @@ struct PlacedSound {
   std::string follows;       ///< name of an object; empty: it stays
   double level_db = 0.0;     ///< louder than the kind is by itself
   bool is_on = true;
+  std::shared_ptr<const Recording> recording;  ///< of recordings and beds
 
   /// Adds all members; see SceneData.
   void hash(ContentHash& hash) const {
     hash.add_text(called), hash.add_text(follows);
     hash.add(int(kind)), hash.add(position), hash.add(level_db), hash.add(is_on);
+    hash.add(recording ? recording->loudness_lufs : 0.0), hash.add(recording ? recording->length_s() : 0.0);
   }
 };
 
@@ -33,8 +37,27 @@ struct Emitter {
   std::uint64_t id = 0;
   SoundKind kind{};
   glm::dvec3 position{0.0};
-  Octaves power_db{};  ///< dB re 1 pW
+  Octaves power_db{};  ///< dB re 1 pW; of a recording, as if its octaves were equally loud
+  std::shared_ptr<const Recording> recording = {};
 };
+
+/// A bed that is heard in one moment.
+struct Bed {
+  std::shared_ptr<const Recording> recording;
+  float gain =
+      1.0f;  ///< of its samples, so that its loudness is its level where amplitude 1 is `full_scale_db`
+
+  /// Adds the samples before a time to the first two channels, each times the gain and nothing else.
+  void add(double time_s, Buffers buffers) const;
+};
+
+/// Level in dB re 20 µPa of a signal whose root mean square is 1.
+inline constexpr double full_scale_db = 100.0;
+/// Level in dB(A) of beds, and of recordings at 1 m, whose `level_db` is 0.
+inline constexpr double recording_db = 60.0;
+
+/// Beds of a scene that are on.
+std::vector<Bed> beds_of(const scene::Scene& scene);
 
 /// Follows what sounds from moment to moment, for speeds.
 class SceneSounds {

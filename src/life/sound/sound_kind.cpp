@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "life/propagation/road_emission.h"
+#include "life/propagation/tram_emission.h"
 
 namespace parvis::sound {
 namespace {
@@ -87,7 +88,8 @@ void add_bell(std::uint64_t seed, const Stretch& stretch, std::span<float> sampl
     for (const Tone& tone : bell_partials) {
       const double hz = note_hz * tone.hz;
       const auto amplitude = [&](double since_s, const Octaves& amplitudes) {
-        if (since_s <= 0.0) return 0.0;
+        constexpr double inaudible_s = 9.0;  // in decays: -78 dB
+        if (since_s <= 0.0 || since_s > inaudible_s * tone.decay_s) return 0.0;
         return tone.amplitude * amplitude_at(hz, amplitudes) * std::exp(-since_s / tone.decay_s) *
                (1.0 - std::exp(-since_s / 0.002));
       };
@@ -159,10 +161,6 @@ bool has_events(SoundKind kind) { return kind >= SoundKind::murmur; }
 
 Octaves power_db(SoundKind kind, double speed_m_s) {
   using propagation::VehicleCategory;
-  const auto raised = [](Octaves levels, double by_db) {
-    for (double& level : levels) level += by_db;
-    return levels;
-  };
   switch (kind) {
     case SoundKind::car:
       return propagation::vehicle_power_db(propagation::road_coefficients_2020, VehicleCategory::light,
@@ -170,9 +168,8 @@ Octaves power_db(SoundKind kind, double speed_m_s) {
     case SoundKind::bus:
       return propagation::vehicle_power_db(propagation::road_coefficients_2020, VehicleCategory::heavy,
                                            3.6 * speed_m_s);
-    case SoundKind::tram:  // rolling: 95 dB(A) at 40 km/h, 30 lg of the speed; silent where it stands
-      return raised({84, 88, 91, 93, 91, 87, 80, 72},
-                    speed_m_s < 0.3 ? -200.0 : 30.0 * std::log10(std::max(speed_m_s, 1.0) / (40.0 / 3.6)));
+    case SoundKind::tram:
+      return propagation::tram_power_db(speed_m_s);
     case SoundKind::tram_roof:
       return {78, 79, 77, 74, 72, 68, 62, 54};  // air conditioning
     case SoundKind::fountain:
@@ -187,6 +184,9 @@ Octaves power_db(SoundKind kind, double speed_m_s) {
       return {0, 0, 0, 0, 20, 70, 80, 66};
     case SoundKind::bell:
       return {70, 80, 96, 104, 102, 96, 84, 70};
+    case SoundKind::recording:
+    case SoundKind::bed:
+      break;  // as loud as the file says
   }
   return {};
 }
@@ -203,6 +203,9 @@ void add_sound(SoundKind kind, std::uint64_t seed, double begin_s, double end_s,
         return add_bird(seed, stretch, part);
       case SoundKind::bell:
         return add_bell(seed, stretch, part);
+      case SoundKind::recording:
+      case SoundKind::bed:
+        return;
       default:
         return add_shaped_noise(seed, stretch, part, [](std::uint64_t, double) { return 1.0; });
     }

@@ -9,11 +9,27 @@
 namespace parvis::sound {
 
 /// The kinds.
-enum class SoundKind { car, bus, tram, tram_roof, fountain, leaves, murmur, footsteps, birds, bell };
+enum class SoundKind {
+  car,
+  bus,
+  tram,
+  tram_roof,
+  fountain,
+  leaves,
+  murmur,
+  footsteps,
+  birds,
+  bell,
+  recording,  ///< a sound file, heard from its place
+  bed         ///< a sound file in stereo, heard everywhere: music, the hum of a town
+};
 
 /// Names in scripts, in the order of SoundKind.
-inline constexpr std::array sound_names{"car",    "bus",    "tram",      "tram roof", "fountain",
-                                        "leaves", "murmur", "footsteps", "birds",     "bell"};
+inline constexpr std::array sound_names{"car",    "bus",       "tram",  "tram roof", "fountain",  "leaves",
+                                        "murmur", "footsteps", "birds", "bell",      "recording", "bed"};
+
+/// Kinds that need no recording; they come first.
+inline constexpr std::size_t synthetic_kinds = 10;
 
 /// The kind of a name of `sound_names`.
 SoundKind sound_kind(std::string_view name);
