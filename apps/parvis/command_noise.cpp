@@ -30,6 +30,9 @@ void print_noise(const NoiseArguments& arguments, const noise::NoiseMap& map) {
         "warning: {} lanes have no traffic figures and are silent; a trafficCount whose road= names them "
         "gives them some\n",
         sources.lanes_without_figures);
+  if (sources.has_trams)
+    fmt::print(
+        "trams count, the same at all hours; with them levels are indicative: no standard has plain trams\n");
   double loudest = 0.0;
   std::size_t facades = 0;
   for (std::size_t i = 0; i < map.receivers.size(); ++i)
@@ -37,16 +40,13 @@ void print_noise(const NoiseArguments& arguments, const noise::NoiseMap& map) {
   fmt::print("{} receivers, {} of them at facades, {} pieces of road; the loudest Lden is {:.1f} dB(A)\n",
              map.receivers.size(), facades, sources.patches.size(), loudest);
   const std::string prefix = arguments.output.string();
-  fmt::print("{}.png, .csv, .tif{}\n", prefix, facades > 0 ? ", _facades.csv" : "");
+  fmt::print("{}.png, .csv, .tif, .glb{}\n", prefix, facades > 0 ? ", _facades.csv" : "");
 }
 
 Result<noise::NoiseMap> noise_of(const NoiseArguments& arguments, const scene::Scene& scene) {
   Result<noise::NoiseMap> map = noise::compute_noise(scene, arguments.options);
   if (!map || arguments.traffic_factor == 1.0) return map;
-  const Result<std::vector<noise::PatchPower>> power =
-      noise::power_of(scene, map->sources, arguments.traffic_factor);
-  if (!power) return power.errors();
-  map->levels = noise::sum_levels(map->transfers, *power);
+  map->levels = noise::sum_levels(map->transfers, noise::multiplied(map->sources, arguments.traffic_factor));
   return map;
 }
 
@@ -59,7 +59,10 @@ Status run_noise(NoiseArguments arguments) {
   if (!simulation) return simulation.errors();
   const Result<noise::NoiseMap> map = noise_of(arguments, simulation->scene);
   if (!map) return map.errors();
-  if (Status status = noise::write_noise(arguments.output, *map, simulation->scene); !status) return status;
+  if (Status status =
+          noise::write_noise(arguments.output, *map, simulation->scene, arguments.options.height_m);
+      !status)
+    return status;
   print_noise(arguments, *map);
   if (arguments.against.empty()) return Ok{};
 

@@ -1,6 +1,7 @@
 // What `parvis noise` writes.
 #include "base/file_set.h"
 #include "base/image_io.h"
+#include "formats/gltf/gltf_writer.h"
 #include "formats/terrain/map_raster.h"
 #include "planning/noise/noise_picture.h"
 
@@ -57,13 +58,16 @@ Result<std::string> raster_of(const NoiseMap& map, const scene::Scene& scene) {
 
 }  // namespace
 
-Status write_noise(const std::filesystem::path& prefix, const NoiseMap& map, const scene::Scene& scene) {
+Status write_noise(const std::filesystem::path& prefix, const NoiseMap& map, const scene::Scene& scene,
+                   double receiver_height_m) {
   const auto lden = [&](int column, int row) -> std::optional<double> {
     const std::optional<NoiseLevels> here = levels_at(map, column, row);
     return here ? std::optional(here->lden) : std::nullopt;
   };
+  const std::string title =
+      map.sources.has_trams ? "Lden in dB(A); indicative, for trams count" : "Lden in dB(A)";
   const Result<std::string> picture =
-      encode_image(noise_picture(map, "Lden in dB(A)", level_scale(), lden), named(prefix, ".png").string());
+      encode_image(noise_picture(map, title, level_scale(), lden), named(prefix, ".png").string());
   if (!picture) return picture.errors();
   const Result<std::string> raster = raster_of(map, scene);
   if (!raster) return raster.errors();
@@ -72,7 +76,8 @@ Status write_noise(const std::filesystem::path& prefix, const NoiseMap& map, con
                                  {named(prefix, ".tif"), *raster}};
   if (std::string facades = facade_rows(map); !facades.empty())
     files.push_back({named(prefix, "_facades.csv"), std::move(facades)});
-  return write_together(files);
+  if (Status status = write_together(files); !status) return status;
+  return scene::write_gltf(named(prefix, ".glb"), noise_model(map, receiver_height_m));
 }
 
 Status write_difference(const std::filesystem::path& prefix, const NoiseMap& map, const NoiseMap& before) {

@@ -34,7 +34,7 @@ Status lay_out(const propagation::SceneTerrain& terrain, const NoiseOptions& opt
       const glm::dvec2 at = map.corner + map.cell_m * (glm::dvec2(column, row) + 0.5);
       const bool is_built = terrain.roof_z(at).has_value();
       map.receiver_of_cell.push_back(is_built ? -1 : int(map.receivers.size()));
-      if (!is_built) map.receivers.push_back({Place(at, terrain.ground_z(at) + options.height_m), {}, -1, 0});
+      if (!is_built) map.receivers.push_back({.place = Place(at, terrain.ground_z(at) + options.height_m)});
     }
   return Ok{};
 }
@@ -58,15 +58,17 @@ void add_facades(const propagation::Site& site, const NoiseOptions& options, Noi
           continue;
         const double ground = site.terrain().ground_z(at);
         for (int floor = 0; ground + 1.5 + floor * options.floor_m < wall.top_a; ++floor)
-          map.receivers.push_back({Place(at, ground + 1.5 + floor * options.floor_m), out, int(w), floor});
+          map.receivers.push_back({Place(at, ground + 1.5 + floor * options.floor_m), out, int(w), floor,
+                                   length_m / count,
+                                   std::min(options.floor_m, wall.top_a - ground - floor * options.floor_m)});
       }
     }
   }
 }
 
 /// The source's place on the scene's ground: lanes lie on paving, which the ground's raster may not follow.
-Place on_ground(Place source, const propagation::SceneTerrain& terrain) {
-  constexpr double bridge_m = 2.0, height_m = 0.05;
+Place on_ground(Place source, double height_m, const propagation::SceneTerrain& terrain) {
+  constexpr double bridge_m = 2.0;
   const double ground = terrain.ground_z(glm::dvec2(source));
   if (std::abs(source.z - ground) < bridge_m) source.z = ground + height_m;
   return source;
@@ -94,8 +96,8 @@ std::vector<PatchTransfer> transfers_to(const propagation::SceneSite& scene, con
         std::clamp(int(std::ceil(patch.length_m() / std::max(0.5 * distance_m, 1.0))), 1, max_pieces);
     std::array<double, octaves> sum{};
     for (int k = 0; k < pieces; ++k) {
-      const Place source =
-          on_ground(patch.middle + patch.half * ((2.0 * k + 1.0) / pieces - 1.0), *scene.terrain);
+      const Place source = on_ground(patch.middle + patch.half * ((2.0 * k + 1.0) / pieces - 1.0),
+                                     patch.height_m, *scene.terrain);
       const propagation::Octaves levels = site.transfer(source, receiver.place, sequences, options.paths, air)
                                               .long_term_db(options.favourable_fraction);
       for (std::size_t band = 0; band < octaves; ++band)

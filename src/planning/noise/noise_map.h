@@ -32,6 +32,7 @@ struct Receiver {
       0.0};       ///< unit normal in plan of its facade, whose own reflection does not count; 0: on the map
   int wall = -1;  ///< of the facade, in the site
   int floor = 0;  ///< counted from 0, the ground floor
+  double width_m = 0.0, height_m = 0.0;  ///< of the piece of facade that it stands for
 };
 
 /// Levels in dB(A) of a receiver.
@@ -71,9 +72,15 @@ double lden_of(double lday, double levening, double lnight);
 /// Lday, Levening, Lnight and Lden of a cell; nothing where a building stands.
 std::optional<NoiseLevels> levels_at(const NoiseMap& map, int column, int row);
 
+/// The map as a model: the ground's cells 10 cm above it and, with their colours of Lden, the pieces of
+/// facades 5 cm before them.
+scene::Model noise_model(const NoiseMap& map, double receiver_height_m);
+
 /// PREFIX.png (Lden in steps of 5 dB), PREFIX.csv, PREFIX.tif (bands Lden, Lday, Levening, Lnight, in the
-/// coordinates of the scene's map) and, of a map with facades, PREFIX_facades.csv.
-Status write_noise(const std::filesystem::path& prefix, const NoiseMap& map, const scene::Scene& scene);
+/// coordinates of the scene's map), PREFIX.glb (`noise_model`) and, of a map with facades,
+/// PREFIX_facades.csv.
+Status write_noise(const std::filesystem::path& prefix, const NoiseMap& map, const scene::Scene& scene,
+                   double receiver_height_m);
 
 /// PREFIX_difference.png and .csv: Lden of `map` less that of `before`, whose grid must be the same.
 Status write_difference(const std::filesystem::path& prefix, const NoiseMap& map, const NoiseMap& before);

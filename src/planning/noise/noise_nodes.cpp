@@ -1,5 +1,6 @@
 // trafficCount: how many vehicles pass on a road, for noise.
 #include "base/registries.h"
+#include "planning/noise/noise_map_node.h"
 #include "planning/noise/traffic_count.h"
 #include "room_list.h"
 #include "scene/script/attribute.h"
@@ -61,6 +62,7 @@ void build_count(const scene::Node& node, scene::SceneBuilder& builder) {
 
 void register_room(Registries& registries) {
   registries.get<scene::NodeRegistry>().add(count_schema(), build_count);
+  add_map_node(registries.get<scene::NodeRegistry>());
 }
 
 }  // namespace parvis::noise

@@ -18,13 +18,6 @@ void fill_box(Image8& picture, glm::ivec2 from, glm::ivec2 to, glm::u8vec3 colou
       for (int c = 0; c < 3; ++c) picture.at(x, y)[c] = colour[c];
 }
 
-glm::u8vec3 colour_of_value(double value, std::span<const ScaleStep> scale) {
-  glm::u8vec3 colour = scale.front().colour;
-  for (const ScaleStep& step : scale)
-    if (value >= step.from) colour = step.colour;
-  return colour;
-}
-
 void draw_scale(Image8& picture, glm::ivec2 at, int width, std::span<const ScaleStep> scale) {
   const int step_px = width / int(scale.size());
   for (std::size_t i = 0; i < scale.size(); ++i) {
@@ -48,6 +41,13 @@ void draw_bar(Image8& picture, glm::ivec2 right, const NoiseMap& map, int cell_p
 }
 
 }  // namespace
+
+glm::u8vec3 colour_of_value(double value, std::span<const ScaleStep> scale) {
+  glm::u8vec3 colour = scale.front().colour;
+  for (const ScaleStep& step : scale)
+    if (value >= step.from) colour = step.colour;
+  return colour;
+}
 
 std::span<const ScaleStep> level_scale() {
   static constexpr ScaleStep steps[]{{0, {226, 240, 226}},  {35, {190, 220, 190}}, {40, {140, 190, 150}},

@@ -19,6 +19,9 @@ struct ScaleStep {
 Image8 noise_picture(const NoiseMap& map, const std::string& title, std::span<const ScaleStep> scale,
                      const std::function<std::optional<double>(int column, int row)>& value);
 
+/// The colour of a value's step.
+glm::u8vec3 colour_of_value(double value, std::span<const ScaleStep> scale);
+
 /// Steps of 5 dB from 35 dB(A), in an order that is also one of lightness.
 std::span<const ScaleStep> level_scale();
 /// Differences in dB: blue where it is quieter, red where it is louder.

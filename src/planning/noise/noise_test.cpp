@@ -5,6 +5,7 @@
 
 #include "base/test_folder.h"
 #include "life/traffic/demand.h"
+#include "life/tram/tram_line.h"
 #include "planning/noise/noise_map.h"
 #include "room_list.h"
 #include "scene/script/test_script.h"
@@ -96,9 +97,7 @@ TEST(Map, TrafficAloneIsSummedAgain) {
   const scene::Scene scene = with_road();
   const auto map = compute_noise(scene, small_area());
   ASSERT_TRUE(map);
-  const auto twice = power_of(scene, map->sources, 2.0);
-  ASSERT_TRUE(twice);
-  const auto levels = sum_levels(map->transfers, *twice);
+  const auto levels = sum_levels(map->transfers, multiplied(map->sources, 2.0));
   for (std::size_t i = 0; i < levels.size(); ++i)
     EXPECT_NEAR(levels[i].lday, map->levels[i].lday + 3.01, 0.01);
 }
@@ -118,13 +117,65 @@ TEST(Map, WhatCannotBeComputedIsAnError) {
   EXPECT_FALSE(compute_noise(with_road(), options)) << "empty";
 }
 
+TEST(Map, TramsAreSourcesOfTheirOwn) {
+  scene::Scene scene;
+  tram::TramLine line;
+  line.track = scene::MeasuredPath({{-200, 0, 0}, {200, 0, 0}});
+  line.timetable = std::make_shared<const tram::Timetable>(
+      line.track, 40.0f, 400.0f, std::vector<tram::Stop>{{40.0f}, {220.0f}, {400.0f}}, 11.0f, 32.0f);
+  line.headway_s = 300.0;
+  scene.data<scene::ItemsOf<tram::TramLine>>().add(line, 0);
+  const auto sources = road_sources(scene, 10.0);
+  ASSERT_TRUE(sources) << "no roads are needed";
+  EXPECT_TRUE(sources->has_trams);
+  EXPECT_EQ(multiplied(*sources, 2.0), sources->power) << "a factor of the roads' traffic";
+  const auto map = compute_noise(scene, small_area());
+  ASSERT_TRUE(map);
+  EXPECT_GT(map->levels.front().lday, 35.0);
+  EXPECT_LT(map->levels.front().lday, 65.0);
+  scene::Scene both = with_road();
+  both.data<scene::ItemsOf<tram::TramLine>>().add(line, 0);
+  const auto louder = compute_noise(both, small_area()), alone = compute_noise(with_road(), small_area());
+  ASSERT_TRUE(louder && alone);
+  EXPECT_GT(louder->levels.front().lday, alone->levels.front().lday);
+}
+
+TEST(Map, ItsModelHasTheColoursOfLevels) {
+  scene::Scene scene = with_road();
+  scene.objects.push_back(box({-60, 10, 0}, {60, 16, 12}));
+  const auto map = compute_noise(scene, small_area());
+  ASSERT_TRUE(map);
+  const scene::Model model = noise_model(*map, 4.0);
+  ASSERT_FALSE(model.parts.empty());
+  std::size_t rectangles = 0;
+  for (const scene::Part& part : model.parts) rectangles += part.mesh.indices.size() / 6;
+  EXPECT_EQ(rectangles, map->receivers.size());
+  for (const glm::vec3& at : model.parts[0].mesh.positions) EXPECT_NEAR(at.z, 0.1f, 1e-4f);
+}
+
+class NoiseMapNode : public scene::ScriptTest<> {
+ protected:
+  NoiseMapNode()
+      : ScriptTest([] {
+          Registries registries;
+          script::register_room(registries), traffic::register_room(registries),
+              noise::register_room(registries);
+          return registries;
+        }()) {}
+};
+
+TEST_F(NoiseMapNode, NeedsRoadsAndTwoCorners) {
+  EXPECT_TRUE(holds(errors_of("noiseMap()\n"), "no roads"));
+  EXPECT_TRUE(holds(errors_of("noiseMap(area=\"0 0 0, 1 1 0, 2 2 0\")\n"), "two corners"));
+}
+
 TEST(Files, AreWrittenTogether) {
   const TestFolder folder;
   const scene::Scene scene = with_road();
   const auto map = compute_noise(scene, small_area());
   ASSERT_TRUE(map);
-  ASSERT_TRUE(write_noise(folder.path() / "noise", *map, scene));
-  for (const char* end : {"noise.png", "noise.csv", "noise.tif"})
+  ASSERT_TRUE(write_noise(folder.path() / "noise", *map, scene, 4.0));
+  for (const char* end : {"noise.png", "noise.csv", "noise.tif", "noise.glb"})
     EXPECT_GT(std::filesystem::file_size(folder.path() / end), 100u) << end;
   ASSERT_TRUE(write_difference(folder.path() / "noise", *map, *map));
   NoiseMap other = *map;

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "land/roads/road_data.h"
+#include "life/propagation/tram_emission.h"
 #include "life/traffic/demand.h"
+#include "life/tram/tram_line.h"
 #include "scene/data/name_pattern.h"
 #include "scene/data/path.h"
 
@@ -13,7 +15,6 @@ namespace {
 
 using propagation::RoadTraffic;
 
-constexpr double source_height_m = 0.05;  // CNOSSOS-EU, 2.2.1: all vehicles
 constexpr auto light = std::size_t(propagation::VehicleCategory::light),
                heavy = std::size_t(propagation::VehicleCategory::heavy);
 
@@ -53,7 +54,7 @@ double gradient_percent(const scene::Lane& lane) {
 }
 
 /// Figures of trafficCount for the lanes of named roads; lanes of one road share its vehicles.
-void set_counted(const scene::Scene& scene, double factor, std::vector<LaneTraffic>& lanes) {
+void set_counted(const scene::Scene& scene, std::vector<LaneTraffic>& lanes) {
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const scene::Lane& lane = scene.roads.lanes[i];
     const scene::Road* road = lane.crossing < 0 ? road_of(scene, lane) : nullptr;
@@ -61,7 +62,7 @@ void set_counted(const scene::Scene& scene, double factor, std::vector<LaneTraff
     for (const TrafficCount& count : scene.items<TrafficCount>()) {
       if (!scene::matches(count.road, road->name)) continue;
       lanes[i].has_figures = true, lanes[i].surface = count.surface;
-      const double fraction = factor / double(road->lanes_each_way + road->lanes_against());
+      const double fraction = 1.0 / double(road->lanes_each_way + road->lanes_against());
       for (std::size_t p = 0; p < periods; ++p) {
         RoadTraffic& traffic = lanes[i].by_period[p];
         traffic.flow_per_h[light] = fraction * count.per_hour[p] * (1.0 - 0.01 * count.heavy_percent[p]);
@@ -73,7 +74,7 @@ void set_counted(const scene::Scene& scene, double factor, std::vector<LaneTraff
 }
 
 /// Flows of the vehicles that `traffic` spreads evenly over its part of the town: density times speed.
-void set_driven(const scene::Scene& scene, double factor, std::vector<LaneTraffic>& lanes) {
+void set_driven(const scene::Scene& scene, std::vector<LaneTraffic>& lanes) {
   const scene::DrivingArea& area = scene.data<scene::DrivingArea>();
   const auto is_driven = [&](const scene::Lane& lane) {
     return lane.crossing < 0 && area.contains(glm::vec2(lane.points.front()));
@@ -82,7 +83,7 @@ void set_driven(const scene::Scene& scene, double factor, std::vector<LaneTraffi
   for (const scene::Lane& lane : scene.roads.lanes)
     if (is_driven(lane)) length_m += length_of(lane);
   if (length_m <= 0.0) return;
-  const double per_m = factor * scene.data<traffic::TrafficDemand>().vehicles / length_m;
+  const double per_m = scene.data<traffic::TrafficDemand>().vehicles / length_m;
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     if (!is_driven(scene.roads.lanes[i])) continue;
     lanes[i].has_figures = true;
@@ -112,7 +113,7 @@ void set_turning(const scene::Scene& scene, std::vector<LaneTraffic>& lanes) {
   }
 }
 
-Result<std::vector<LaneTraffic>> traffic_of(const scene::Scene& scene, double factor) {
+Result<std::vector<LaneTraffic>> traffic_of(const scene::Scene& scene) {
   if (scene.roads.empty())
     return error("the scene has no roads: nothing makes noise; add road(...) or streets(...)");
   std::vector<LaneTraffic> lanes(scene.roads.lanes.size());
@@ -122,9 +123,9 @@ Result<std::vector<LaneTraffic>> traffic_of(const scene::Scene& scene, double fa
       traffic.celsius = 15.0;
     }
   if (!scene.items<TrafficCount>().empty())
-    set_counted(scene, factor, lanes);
+    set_counted(scene, lanes);
   else if (scene.data<traffic::TrafficDemand>().vehicles > 0)
-    set_driven(scene, factor, lanes);
+    set_driven(scene, lanes);
   else
     return error(
         "the scene's roads have no traffic figures: add trafficCount(per_hour=\"DAY EVENING NIGHT\"), or "
@@ -146,11 +147,41 @@ std::vector<PatchPower> power_of_patches(const std::vector<LaneTraffic>& lanes,
       per_metre[i][p] = propagation::road_power_db(propagation::road_coefficients_2020,
                                                    surface_named(lanes[i].surface), lanes[i].by_period[p]);
   for (std::size_t i = 0; i < patches.size(); ++i)
-    for (std::size_t p = 0; p < periods; ++p)
+    for (std::size_t p = 0; p < periods && patches[i].lane >= 0; ++p)
       for (std::size_t band = 0; band < propagation::octaves; ++band)
         result[i][p][band] =
             propagation::energy(per_metre[std::size_t(patches[i].lane)][p][band]) * patches[i].length_m();
   return result;
+}
+
+/// Adds the pieces of a line's track with the mean power of the trams that pass: what one gives off while its
+/// middle is on the piece, times the trams per second.
+void add_trams(const tram::TramLine& line, double patch_m, RoadSources& sources) {
+  if (!line.is_visible || !line.timetable || line.headway_s <= 0.0) return;
+  const double length_m = double(line.track.length());
+  const auto pieces = std::size_t(std::max(1.0, std::ceil(length_m / patch_m)));
+  std::vector<propagation::Octaves> energies(pieces, propagation::Octaves{});
+  constexpr double step_s = 0.1, half_tram_m = 16.0;
+  for (double at_s = 0.0; at_s < line.timetable->duration_s(); at_s += step_s) {
+    const tram::Moment moment = line.timetable->at(at_s);
+    const double middle_m = std::clamp(moment.front_m - half_tram_m, 0.0, length_m - 1e-3);
+    const propagation::Octaves power = propagation::tram_power_db(double(moment.speed_m_s));
+    for (std::size_t band = 0; band < propagation::octaves; ++band)
+      energies[std::size_t(middle_m / length_m * double(pieces))][band] +=
+          propagation::energy(power[band]) * step_s / line.headway_s;
+  }
+  for (std::size_t k = 0; k < pieces; ++k) {
+    const auto at = [&](std::size_t piece) {
+      return glm::dvec3(line.track.at(float(length_m * double(piece) / double(pieces))));
+    };
+    const glm::dvec3 a = at(k), b = at(k + 1);
+    sources.patches.push_back({.middle = 0.5 * (a + b) + glm::dvec3(0, 0, propagation::tram_source_m),
+                               .half = 0.5 * (b - a),
+                               .lane = -1,
+                               .height_m = propagation::tram_source_m});
+    sources.power.push_back({energies[k], energies[k], energies[k]});
+  }
+  sources.has_trams = true;
 }
 
 }  // namespace
@@ -172,8 +203,10 @@ propagation::RoadSurface surface_named(const std::string& name) {
 }
 
 Result<RoadSources> road_sources(const scene::Scene& scene, double patch_m) {
-  const Result<std::vector<LaneTraffic>> lanes = traffic_of(scene, 1.0);
-  if (!lanes) return lanes.errors();
+  RoadSources trams;
+  for (const tram::TramLine& line : scene.items<tram::TramLine>()) add_trams(line, patch_m, trams);
+  const Result<std::vector<LaneTraffic>> lanes = traffic_of(scene);
+  if (!lanes) return trams.has_trams ? Result<RoadSources>(std::move(trams)) : lanes.errors();
   RoadSources sources;
   sources.is_counted = !scene.items<TrafficCount>().empty();
   for (std::size_t i = 0; i < lanes->size(); ++i) {
@@ -187,20 +220,25 @@ Result<RoadSources> road_sources(const scene::Scene& scene, double patch_m) {
       const auto at = [&](float piece) { return glm::dvec3(line.at(line.length() * piece / float(pieces))); };
       const glm::dvec3 a = at(float(k)), b = at(float(k + 1));
       if (glm::distance(a, b) < 0.01) continue;
-      sources.patches.push_back({0.5 * (a + b) + glm::dvec3(0, 0, source_height_m), 0.5 * (b - a), int(i)});
+      SourcePatch patch{.middle = 0.5 * (a + b), .half = 0.5 * (b - a), .lane = int(i)};
+      patch.middle.z += patch.height_m;
+      sources.patches.push_back(patch);
     }
   }
   sources.power = power_of_patches(*lanes, sources.patches);
+  sources.patches.insert(sources.patches.end(), trams.patches.begin(), trams.patches.end());
+  sources.power.insert(sources.power.end(), trams.power.begin(), trams.power.end());
+  sources.has_trams = trams.has_trams;
   return sources;
 }
 
-Result<std::vector<PatchPower>> power_of(const scene::Scene& scene, const RoadSources& sources,
-                                         double factor) {
-  const Result<std::vector<LaneTraffic>> lanes = traffic_of(scene, factor);
-  if (!lanes) return lanes.errors();
-  for (const SourcePatch& patch : sources.patches)
-    if (std::size_t(patch.lane) >= lanes->size()) return error("the roads are others than those of the map");
-  return power_of_patches(*lanes, sources.patches);
+std::vector<PatchPower> multiplied(const RoadSources& sources, double factor) {
+  std::vector<PatchPower> power = sources.power;
+  for (std::size_t i = 0; i < power.size(); ++i)
+    if (sources.patches[i].lane >= 0)
+      for (propagation::Octaves& energies : power[i])
+        for (double& energy : energies) energy *= factor;
+  return power;
 }
 
 }  // namespace parvis::noise
