@@ -13,16 +13,18 @@ import re
 import shlex
 import shutil
 import signal
+import socket
 import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import wave
 import zlib
 
 PARVIS = None  # path of the program, from the command line
-SUBCOMMANDS = ["view", "render", "bake", "reference", "compare", "check", "format", "export", "city", "plan", "photomontage", "sun", "facade", "tree", "car", "noise", "sound", "study"]
+SUBCOMMANDS = ["view", "render", "bake", "reference", "compare", "check", "format", "export", "city", "plan", "photomontage", "sun", "facade", "tree", "car", "noise", "sound", "soundserver", "study"]
 SIZE = ["--size", "64x48"]
 
 
@@ -1840,6 +1842,83 @@ class Window(InAFolder):
             "view", scene, "--frames", "1", words=["display"],
             environment={"DISPLAY": "", "WAYLAND_DISPLAY": ""},
         )
+
+
+class Sounds(InAFolder):
+    """Sound files that are read and written, the window's sound, and the server."""
+
+    def tone(self, name, seconds=1.0, amplitude=0.3, bytes_kept=None):
+        samples = [round(32767 * amplitude * math.sin(2 * math.pi * 1000 * i / 48000)) for i in range(int(48000 * seconds))]
+        with wave.open(str(self.folder / name), "wb") as file:
+            file.setnchannels(1), file.setsampwidth(2), file.setframerate(48000)
+            file.writeframes(struct.pack(f"<{len(samples)}h", *samples))
+        if bytes_kept is not None:
+            whole = (self.folder / name).read_bytes()
+            (self.folder / name).write_bytes(whole[:bytes_kept])
+
+    def samples(self, name):
+        with wave.open(str(self.folder / name), "rb") as file:
+            return struct.unpack(f"<{file.getnframes() * file.getnchannels()}h", file.readframes(file.getnframes()))
+
+    def test_a_walk_with_a_recording_is_heard_in_named_channels(self):
+        self.tone("tone.wav")
+        scene = self.write("scene.xp", 'sound(kind="recording", file="tone.wav", position="-5 0 1.7", level_db=20)\n')
+        heard = self.folder / "heard.wav"
+        done = run("sound", scene, "--camera-path", "0 -3 1.7, 0 3 1.7", "--seconds", 1, "--for", "5.1", "-o", heard)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        header = heard.read_bytes()[:68]
+        self.assertEqual(struct.unpack("<H", header[22:24])[0], 6, "channels")
+        self.assertEqual(struct.unpack("<I", header[40:44])[0], 0x60F, "their names")
+        samples = struct.unpack("<288000h", heard.read_bytes()[68:])
+        energies = [sum(it * it for it in samples[channel::6]) for channel in range(6)]
+        self.assertEqual(energies[3], 0, "low frequencies")
+        self.assertGreater(energies[0] + energies[4], 10 * (energies[1] + energies[5]), "from the left")
+
+    def test_bad_sound_files_are_named(self):
+        scene = self.folder / "scene.xp"
+        self.tone("cut.wav", bytes_kept=60)
+        self.tone("silent.wav", amplitude=0.0)
+        (self.folder / "empty.ogg").write_bytes(b"")
+        (self.folder / "large.wav").write_bytes(b"RIFF" + bytes(70 << 20))
+        for name in ("cut.wav", "silent.wav", "empty.ogg", "large.wav", "missing.wav"):
+            self.write("scene.xp", f'sound(kind="bed", file="{name}")\n')
+            self.expect_failure("check", scene, words=[name])
+        self.write("scene.xp", 'sound(kind="bed")\n')
+        self.expect_failure("check", scene, words=["file=", "scene.xp:1"])
+
+    def test_a_server_plays_what_it_is_sent_and_survives_the_rest(self):
+        def text(value):
+            return value.encode() + bytes(4 - len(value) % 4)
+
+        with subprocess.Popen([PARVIS, "soundserver", "--port", "0", "--device", str(self.folder / "served.wav"),
+                               "--seconds", "3"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as server:
+            port = int(re.search(r"port (\d+)", server.stdout.readline())[1])
+            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as client:
+                client.settimeout(5)
+                client.sendto(text("/parvis/ping") + text(","), ("127.0.0.1", port))
+                self.assertTrue(client.recv(100).startswith(b"/parvis/pong"))
+                sound = text("/parvis/sound") + text(",is" + "f" * 12) + struct.pack(">i", 7) + text("fountain")
+                sound += struct.pack(">12f", -1, 0, 0, *[70] * 8, 0.1)
+                for packet in (b"/parvis/sound\0\0\0", b"#bundle\0", b"x", sound[:40], sound):
+                    client.sendto(packet, ("127.0.0.1", port))
+            _, errors = server.communicate(timeout=60)
+        self.assertEqual(server.returncode, 0, errors)
+        self.assertIn("4 packets were refused", errors)
+        samples = self.samples("served.wav")
+        self.assertGreater(max(samples[0::2]), 20, "the fountain")
+        self.assertEqual(max(map(abs, samples[-2000:])), 0, "faded away after two seconds")
+
+    def test_the_window_sounds_and_goes_on_without_a_device(self):
+        if not shutil.which("xvfb-run"):
+            self.skipTest("skipped: no xvfb-run here")
+        scene = self.write("scene.xp", 'sun()\nsound(kind="fountain", position="0 3 1")\ncamera(name="a", position="0 -3 2")\n')
+        before = ["xvfb-run", "-a", "-f", str(self.folder / "Xauthority")]
+        command = ["view", scene, *SIZE, "--frames", 60]
+        done = run(*command, "--sound", self.folder / "window.wav", before=before)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(max(self.samples("window.wav")), 20)
+        done = run(*command, "--sound", "no such device", before=before)
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 if __name__ == "__main__":

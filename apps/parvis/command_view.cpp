@@ -11,6 +11,7 @@ struct ViewArguments : SceneArguments {
   viewer::WindowOptions window;
   std::string rate;      ///< of --fps; empty: not given
   std::string language;  ///< of --language; empty: the locale's
+  std::string sound;     ///< of --sound; empty: not given
 };
 
 /// --fps.
@@ -37,6 +38,8 @@ Status view(ViewArguments& arguments) {
   if (Status status = arguments.read_size(window.width, window.height); !status) return status;
   if (Status status = arguments.expect_one_scenario(); !status) return status;
   if (Status status = read_rate(arguments.rate, window); !status) return status;
+  // Pictures that can be repeated make no noise.
+  window.sound = !arguments.sound.empty() ? arguments.sound : window.max_frames > 0 ? "off" : "default";
   window.camera = arguments.camera;
   window.title = arguments.scene.stem().string();
   window.pictures.name = window.title;
@@ -70,6 +73,10 @@ void add_view(CLI::App& app, Chosen& chosen) {
                     "Begin with the planner's tool in hand: place, move and measure objects of a design");
   command->add_option("--language", arguments->language, "Of the planner's tool (default: the locale's)")
       ->check(CLI::IsMember({"en", "fr"}));
+  command->add_option("--sound", arguments->sound,
+                      "Device that sounds, by OpenAL's name; default; null (none); NAME.wav (what headphones "
+                      "would play); osc://HOST:PORT (parvis soundserver); or off (default: default; off with "
+                      "--frames)");
   command->add_flag("--panel", arguments->window.has_panel, "Begin with the panel open");
   command->add_option("--output", arguments->window.pictures.folder,
                       "Folder of the pictures that the key P takes (default: the scene's)");

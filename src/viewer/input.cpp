@@ -49,8 +49,8 @@ Input& input_of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowU
 
 }  // namespace
 
-Input::Input(GLFWwindow* window, Visit& visit, Panel& panel, Planning& planning)
-    : window_(window), visit_(visit), panel_(panel), planning_(planning) {
+Input::Input(GLFWwindow* window, Visit& visit, Panel& panel, Planning& planning, Hearing& hearing)
+    : window_(window), visit_(visit), panel_(panel), planning_(planning), hearing_(hearing) {
   static_assert(std::tuple_size_v<decltype(controller_buttons_)> == GLFW_GAMEPAD_BUTTON_LAST + 1);
   glfwSetWindowUserPointer(window, this);
   glfwSetKeyCallback(window, [](GLFWwindow* in, int key, int, int action, int modifiers) {
@@ -287,6 +287,10 @@ void Input::press(int key) {
       break;
     case GLFW_KEY_P:
       visit_.take_picture();
+      break;
+    case GLFW_KEY_M:
+      hearing_.mute(!hearing_.is_muted());
+      if (hearing_.is_on()) visit_.notice(hearing_.is_muted() ? "The sound is muted" : "The sound is heard");
       break;
     case GLFW_KEY_PAGE_UP:
     case GLFW_KEY_PAGE_DOWN:

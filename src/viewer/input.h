@@ -16,7 +16,7 @@ namespace parvis::viewer {
 /// the panel captures does not reach the visit.
 class Input {
  public:
-  Input(GLFWwindow* window, Visit& visit, Panel& panel, Planning& planning);
+  Input(GLFWwindow* window, Visit& visit, Panel& panel, Planning& planning, Hearing& hearing);
   Input(const Input&) = delete;
   ~Input();
 
@@ -53,6 +53,7 @@ class Input {
   Visit& visit_;
   Panel& panel_;
   Planning& planning_;
+  Hearing& hearing_;
   Controls controls_;
   bool is_dragging_ = false, is_panning_ = false, is_sliding_ = false;
   bool has_moved_ = false;                    ///< the cursor, since the last poll

@@ -23,6 +23,7 @@ inline constexpr std::array key_help{
     KeyHelp{"Space", "halts the traffic, or lets it go on"},
     KeyHelp{"N", "moves halted traffic on by a tenth of a second"},
     KeyHelp{"P", "takes a picture"},
+    KeyHelp{"M", "mutes the sound, or lets it be heard"},
     KeyHelp{"PgDn PgUp", "toward a sketch, toward a photograph"},
     KeyHelp{"K  F3", "what can be placed; the planner's tool"},
     KeyHelp{"4  5  6", "planning: plan, street, balcony"},

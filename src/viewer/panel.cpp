@@ -55,14 +55,14 @@ float Panel::width() const {
                  : 0.0f;
 }
 
-void Panel::draw(Visit& visit, const FrameStatistics& statistics) {
+void Panel::draw(Visit& visit, const FrameStatistics& statistics, Hearing* hearing) {
   rows_.forget_places();
-  if (is_open) draw_panel(visit, statistics);
+  if (is_open) draw_panel(visit, statistics, hearing);
   if (shows_keys) draw_keys();
   draw_notices(visit);
 }
 
-void Panel::draw_panel(Visit& visit, const FrameStatistics& statistics) {
+void Panel::draw_panel(Visit& visit, const FrameStatistics& statistics, Hearing* hearing) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({window.x - width(), 0.0f});
   ImGui::SetNextWindowSize({width(), window.y});
@@ -91,6 +91,7 @@ void Panel::draw_panel(Visit& visit, const FrameStatistics& statistics) {
         draw_scenarios(visit);
         draw_light(visit);
         draw_processes(visit);
+        if (hearing && hearing->is_on()) draw_sound(*hearing);
       });
       page(page_of_nodes, [&] { nodes_.draw(visit, rows_); });
       page("Statistics", [&] { draw_statistics(visit, statistics); });
@@ -223,6 +224,14 @@ void Panel::draw_processes(Visit& visit) {
   const auto pressed = rows_.buttons({is_halted ? "Go on" : "Halt", "Step 0.1 s"}, is_halted ? 0 : 2);
   if (pressed == 0u) visit.halt(!is_halted);
   if (pressed == 1u) visit.step_halted();
+}
+
+void Panel::draw_sound(Hearing& hearing) {
+  rows_.heading("Sound");
+  rows_.remark(hearing.sounds() == 1 ? "1 sound is heard"
+                                     : fmt::format("{} sounds are heard", hearing.sounds()));
+  bool is_muted = hearing.is_muted();
+  if (rows_.flag("Muted", is_muted, "the key M does the same")) hearing.mute(is_muted);
 }
 
 void Panel::draw_statistics(Visit& visit, const FrameStatistics& statistics) {

@@ -9,6 +9,7 @@
 #include "viewer/imgui_context.h"
 #include "viewer/panel_nodes.h"
 #include "viewer/visit.h"
+#include "viewer/window_hearing.h"
 
 namespace parvis::viewer {
 
@@ -25,8 +26,8 @@ class Panel {
   /// Width of the panel in ImGui's units; 0 where the panel is closed.
   float width() const;
   /// Draws the panel if it is open, the keys if they are asked for, and notices to the visitor; called
-  /// between ImguiContext's begin_frame and draw.
-  void draw(Visit& visit, const FrameStatistics& statistics);
+  /// between ImguiContext's begin_frame and draw. `hearing`: what is heard; null: there is no such row.
+  void draw(Visit& visit, const FrameStatistics& statistics, Hearing* hearing = nullptr);
 
   /// Rows of a page of its own before all others, "Design"; empty: there is none.
   std::function<void(PanelRows&)> design_page = {};
@@ -40,13 +41,14 @@ class Panel {
   const Places& places() const { return rows_.places(); }
 
  private:
-  void draw_panel(Visit& visit, const FrameStatistics& statistics);
+  void draw_panel(Visit& visit, const FrameStatistics& statistics, Hearing* hearing);
   void draw_visit(Visit& visit);
   void draw_scenarios(Visit& visit);
   void draw_light(Visit& visit);
   void draw_sun(Visit& visit);
   void draw_hour(Visit& visit, const scene::Node& day_light);
   void draw_processes(Visit& visit);
+  void draw_sound(Hearing& hearing);
   void draw_statistics(Visit& visit, const FrameStatistics& statistics);
   void draw_keys() const;
   void draw_notices(const Visit& visit) const;

@@ -18,6 +18,7 @@
 #include "viewer/panel.h"
 #include "viewer/planning_bars.h"
 #include "viewer/study_desk.h"
+#include "viewer/window_hearing.h"
 
 namespace parvis::viewer {
 namespace {
@@ -124,10 +125,11 @@ class Frames {
         scale_(scale_of(window)),
         visit_(stage, start, options.pictures),
         imgui_(scale_.interface, scale_.pixels_per_point),
+        hearing_(options.sound),
         panel_(imgui_, options.title, options.language),
         planning_(visit_, options.language),
         bars_(imgui_, planning_, options.kept_pictures),
-        input_(window, visit_, panel_, planning_),
+        input_(window, visit_, panel_, planning_, hearing_),
         imgui_input_(window) {
     panel_.is_open = options.has_panel;
     if (options.plans) planning_.turn_on(true);
@@ -155,6 +157,7 @@ class Frames {
       const Camera eye = visit_.camera();
       visit_.step(controls, seconds, planning_.holds_things());
       if (study_) study_->add_frame(double(seconds), visit_.advanced_s(), eye);
+      hear(double(seconds));
       draw(double(seconds));
       const bool is_last =
           glfwWindowShouldClose(window_) || frame == options_.max_frames || (study_ && study_->has_ended());
@@ -177,6 +180,11 @@ class Frames {
   static constexpr int settling_frames = 30;
   static constexpr double rest_s = 0.1;  ///< between frames at rest: the ray tracer needs the processor
 
+  void hear(double passed_s) {
+    hearing_.step(visit_.scene(), visit_.camera(), visit_.stage().simulation().clock.time_s(), passed_s);
+    if (const std::string message = hearing_.take_message(); !message.empty()) visit_.notice(message);
+  }
+
   void draw(double passed_s) {
     glfwGetFramebufferSize(window_, &width_, &height_);
     if (width_ == 0 || height_ == 0) return;  // an icon
@@ -189,7 +197,7 @@ class Frames {
     if (planning_.is_on() != bool(panel_.design_page))
       panel_.design_page = planning_.is_on() ? [this](PanelRows& rows) { bars_.draw_inspector(rows); }
                                              : std::function<void(PanelRows&)>();
-    panel_.draw(visit_, statistics_);
+    panel_.draw(visit_, statistics_, &hearing_);
     bars_.draw(ImGui::GetIO().DisplaySize.x - panel_.width());
     if (study_) study_->draw(ImGui::GetIO().DisplaySize.x - panel_.width());
 
@@ -245,6 +253,7 @@ class Frames {
   Scale scale_;
   Visit visit_;
   ImguiContext imgui_;
+  Hearing hearing_;
   Panel panel_;
   Planning planning_;
   PlanningBars bars_;

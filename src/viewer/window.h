@@ -27,6 +27,7 @@ struct WindowOptions {
   study::Session* study = nullptr;          ///< of a participant who works in the window; not owned
   /// The scene of the session's next part, when this one's are over; nothing where there is none.
   std::function<Result<std::optional<stage::Simulation>>()> next_scene = {};
+  std::string sound = "default";  ///< the device that sounds (sound/device.h); off: none
   std::string screenshot;  ///< what the window shows last, panel and all, is written here; empty: nowhere
 };
 

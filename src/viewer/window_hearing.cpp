@@ -1,0 +1,77 @@
+#include "viewer/window_hearing.h"
+
+#include <chrono>
+
+namespace parvis::viewer {
+namespace {
+
+constexpr double update_s = 1.0 / 15.0;  // between two updates; playback glides from one to the next
+constexpr double patience_s = 3.0;       // without an answer the server is gone
+constexpr std::string_view server_scheme = "osc://";
+
+}  // namespace
+
+void Hearing::begin_to_play() {
+  if (!device_.starts_with(server_scheme)) {
+    playback_ = std::make_unique<sound::Playback>(
+        [device = device_](std::size_t streams) { return sound::open_device(device, streams); });
+    return;
+  }
+  Result<sound::Datagrams> server = sound::Datagrams::connect(device_.substr(server_scheme.size()));
+  if (server)
+    server_.emplace(*std::move(server));
+  else
+    message_ = "No sound: " + to_string(server.errors());
+}
+
+/// Packets go to a server that has vanished, too: it may come back.
+void Hearing::tell_server(std::span<const sound::HeardSound> heard, double time_s) {
+  const auto send = [&](const sound::OscMessage& message) {
+    if (const Result<std::string> packet = sound::liblo.call(&sound::LibloFunctions::encode, message))
+      server_->send(*packet);
+  };
+  bool answers = false;
+  while (!server_->receive(0).empty()) answers = true;
+  unanswered_s_ = answers ? 0.0 : unanswered_s_ + waited_s_;
+  if (const bool is_lost = unanswered_s_ > patience_s; is_lost != is_server_lost_) {
+    is_server_lost_ = is_lost;
+    message_ =
+        is_lost ? fmt::format("No sound: the server at {} does not answer", device_) : "Sound is back.";
+  }
+  send({"/parvis/ping", {}, {}});
+  send({"/parvis/mute", {is_muted_ ? 1.0 : 0.0}, {""}});
+  for (const sound::HeardSound& sound : heard)
+    if (!sound.recording) send(sound::message_of(sound, time_s));
+}
+
+std::string Hearing::take_message() {
+  if (message_.empty() && playback_) return playback_->take_message();
+  return std::exchange(message_, {});
+}
+
+void Hearing::step(const scene::Scene& scene, const Camera& ears, double time_s, double passed_s) {
+  if (device_ == "off") return;
+  waited_s_ += passed_s;
+  if (waited_s_ < update_s) return;
+  if (!listening_) {
+    if (!found_.valid()) {
+      if (sound::beds_of(scene).empty() && sound::SceneSounds().at(scene, 0.0).empty()) return;
+      found_ = std::async(std::launch::async, [place = scene] {
+        return std::make_unique<sound::Listening>(place, sound::Output::headphones);
+      });
+    }
+    if (found_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    listening_ = found_.get();
+    begin_to_play();
+  }
+  std::vector<sound::HeardSound> heard = listening_->heard(scene, ears, time_s, waited_s_);
+  sounds_ = listening_->sources();
+  if (server_) tell_server(heard, time_s);
+  if (playback_) {
+    playback_->mute(is_muted_);
+    playback_->update(std::move(heard), sound::beds_of(scene), time_s);
+  }
+  waited_s_ = 0.0;
+}
+
+}  // namespace parvis::viewer
