@@ -192,9 +192,14 @@ constexpr Key keys[]{
     {"noise_map_points_per_s_without_reflections", "points/s", {}, "the same without reflections"},
     {"noise_resummed_ms", "ms", maximum(100.0), "10,000 receivers of the map summed for another traffic", {{"noise_resummed_ms_with_rays"}}},
     // sound
-    {"sources_realtime", "sources", minimum(5000.0), "moving sources of all kinds, 24 clusters for headphones, in a quarter of a core"},
-    {"level_error_db_per_band", "dB", maximum(1.5), "2,000 steady sources at a microphone, the worst octave, against the sum of all"},
-    {"direction_error_deg", "degrees", maximum(5.0), "the same, sources against their clusters, weighted by energy", {{"direction_error_deg_of_two_clusters"}}},
+    {"sources_realtime", "sources", minimum(5000.0), "moving sources of all kinds as they reach the listener, premixed into 24 clusters with OpenAL's HRTF, in a quarter of a core", {{"sources_realtime_openal_alone"}}},
+    {"sources_over_openal_alone", "", minimum(3.0), "the same over sources of OpenAL Soft alone in the same time", {{"sources_over_openal_alone_unclustered"}}},
+    {"level_error_db_per_band", "dB", maximum(1.5), "2,000 steady sources at a microphone, the worst octave, against the sum of all", {{"level_error_db_per_band_of_deep_masking"}}},
+    {"direction_error_deg", "degrees", maximum(5.0), "2,000 moving sources against their clusters, weighted by energy, mean of 1 s (5 s)", {{"direction_error_deg_of_two_clusters"}}},
+    {"cluster_switch_click_db", "dB", maximum(-50.0), "300 low sounds that move: the loudest 10 ms above 1.5 kHz against the mean of the mix", {{"cluster_switch_click_db_without_crossfades"}}},
+    {"cluster_switch_click_db_of_the_unclustered_mix", "dB", {}, "the same with a cluster for each sound"},
+    {"bed_bit_identical", "", minimum(1.0), "two seconds of a bed of birds times its gain", {{"bed_bit_identical_beside_a_fountain"}}},
+    {"osc_packets_fuzzed", "packets", minimum(1e6), "altered and cut messages taken in by the sound server (quick: 100,000), after each of which all that it plays is finite"},
     {"map_over_listening_db", "dB", maximum(1.0), "a street and a house, ten listeners, the worst octave of what is heard against the map", {{"map_over_listening_db_elsewhere"}}},
     {"shadow_edge_step_db", "dB", maximum(0.5), "a walk behind the house, from step to step of 1/60 s"},
     // vegetation

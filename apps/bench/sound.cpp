@@ -1,6 +1,12 @@
 // Sound: the mix against the sources by themselves, what is heard against the map, shadows, time.
+#include <numbers>
+
+#include "base/random.h"
+#include "base/test_data.h"
 #include "bench/parts.h"
 #include "life/sound/listening.h"
+#include "life/sound/openal_module.h"
+#include "life/sound/sound_server.h"
 #include "life/traffic/demand.h"
 #include "planning/noise/noise_map.h"
 
@@ -18,7 +24,7 @@ std::vector<sound::HeardSound> crowd_of_sounds(std::size_t count, int moment, bo
     const float angle = 2.4f * float(i) + 0.002f * float(moment) * float(i % 7);
     const double distance_m = 5.0 + double(i % 200);
     sounds[i].id = i;
-    sounds[i].kind = sound::SoundKind(i % (has_events ? sound::sound_names.size() : 6));
+    sounds[i].kind = sound::SoundKind(i % (has_events ? sound::synthetic_kinds : 6));
     sounds[i].direction = {std::sin(angle), std::cos(angle), 0.0f};
     sounds[i].energy.fill(1e-3 / (distance_m * distance_m));
     sounds[i].emitted_s = moment / 50.0 - distance_m / 340.0;
@@ -26,46 +32,205 @@ std::vector<sound::HeardSound> crowd_of_sounds(std::size_t count, int moment, bo
   return sounds;
 }
 
-/// The fraction of a core that mixing so many moving sounds takes.
-double core_fraction(std::size_t count, int moments) {
-  sound::Mixer mixer(sound::Output::headphones);
-  std::vector<float> left(sound::sample_rate / 50, 0.0f), right(left);
+/// The cost of a run of mixing, and how far its clusters are off.
+struct MixRun {
+  double core_fraction = 0.0, direction_error_deg = 0.0;
+};
+
+std::unique_ptr<sound::Loopback> loopback(std::size_t sources) {
+  std::vector<float> loop(BandNoise::length, 0.0f);
+  Octaves quiet;
+  quiet.fill(1e-3);
+  BandNoise::instance().add(loop, 0.0, 1.0, quiet, quiet);
+  return must(sound::openal.call(&sound::OpenAlFunctions::open_loopback, sources, loop));
+}
+
+/// Moving sounds premixed into clusters, which OpenAL Soft renders by HRTF.
+MixRun run_mix(std::size_t count, std::size_t clusters, int moments) {
+  sound::Mixer mixer(sound::Output::headphones, {.clusters = clusters});
+  const auto ears = loopback(clusters);
+  std::vector<float> left(sound::device_moment), right(left);
+  MixRun run;
   double took_ms = 0.0;
-  for (int i = 0; i < moments; ++i) {
+  for (int i = -5; i < moments; ++i) {
     const auto sounds = crowd_of_sounds(count, i, true);
-    took_ms += milliseconds([&] { mixer.mix(sounds, left, right); });
+    const double ms = milliseconds([&] { ears->render(mixer.premix(sounds, left.size()), left, right); });
+    if (i < 0) continue;  // sources begin
+    took_ms += ms;
+    run.direction_error_deg += glm::degrees(mixer.counts().direction_error_rad) / moments;
+  }
+  run.core_fraction = took_ms / (1e3 * moments / 50.0);
+  return run;
+}
+
+/// The same sounds by OpenAL Soft alone, each a source with HRTF.
+double openal_core_fraction(std::size_t count, int moments) {
+  const auto ears = loopback(count);
+  std::vector<float> left(sound::device_moment), right(left);
+  double took_ms = 0.0;
+  for (int i = -5; i < moments; ++i) {
+    std::vector<glm::vec3> directions;
+    for (const sound::HeardSound& it : crowd_of_sounds(count, i, true)) directions.push_back(it.direction);
+    const double ms = milliseconds([&] { ears->render_sources(directions, left, right); });
+    if (i >= 0) took_ms += ms;
   }
   return took_ms / (1e3 * moments / 50.0);
 }
 
-void measure_mix(const BenchSetup& setup, Report& report) {
-  const int moments = setup.is_quick ? 100 : 500;
-  BandNoise::instance();
+void measure_realtime(const BenchSetup& setup, Report& report) {
+  constexpr double quarter = 0.25;
+  const int moments = setup.is_quick ? 50 : 250;
   std::size_t realtime = 0;
-  for (const std::size_t count : {500u, 1000u, 2000u, 5000u, 10'000u, 20'000u}) {
-    const double fraction = core_fraction(count, moments);
-    report.note(fmt::format("{} sounds: {:.3f} of a core", count, fraction));
-    if (fraction <= 0.25) realtime = count;
+  for (const std::size_t count : {500u, 1000u, 2000u, 5000u, 7000u, 10'000u, 14'000u, 20'000u}) {
+    const double fraction = run_mix(count, sound::MixerLimits{}.clusters, moments).core_fraction;
+    report.note(fmt::format("{} sounds in clusters: {:.3f} of a core", count, fraction));
+    if (fraction > quarter) break;
+    realtime = count;
   }
   report.add("sources_realtime", double(realtime));
+  constexpr std::size_t few = 200, some = 400;
+  const double of_few = openal_core_fraction(few, moments), of_some = openal_core_fraction(some, moments);
+  report.note(fmt::format("OpenAL Soft alone: {} sounds {:.3f}, {} sounds {:.3f} of a core", few, of_few,
+                          some, of_some));
+  const double alone = double(some) * quarter / of_some;  // its cost grows in proportion
+  report.add("sources_realtime_openal_alone", alone);
+  report.add("sources_over_openal_alone", double(realtime) / alone);
+  const double unclustered = run_mix(some, some, moments).core_fraction;
+  report.add("sources_over_openal_alone_unclustered", double(some) * quarter / unclustered / alone);
+}
 
-  // Steady noise at a microphone: each octave against the sum of all sounds.
-  const auto sounds = crowd_of_sounds(2000, 0, false);
-  sound::Mixer mixer(sound::Output::microphone), few(sound::Output::microphone, {.clusters = 2});
+/// Sum of all sounds by octave against what a microphone hears of clusters.
+double level_error_db(std::span<const sound::HeardSound> sounds, const sound::MixerLimits& limits) {
+  sound::Mixer mixer(sound::Output::microphone, limits);
   std::vector<float> left(BandNoise::length, 0.0f), right(left);
   mixer.mix(sounds, std::span(left).first(960), std::span(right).first(960));
   std::ranges::fill(left, 0.0f);
   mixer.mix(sounds, left, right);
-  few.mix(sounds, right, right);
   Octaves sum{};
   for (const sound::HeardSound& it : sounds)
     for (std::size_t band = 0; band < octaves; ++band) sum[band] += it.energy[band];
   double worst_db = 0.0;
   for (std::size_t band = 0; band < octaves; ++band)
     worst_db = std::max(worst_db, std::abs(propagation::level(sound::band_energy(left, band) / sum[band])));
-  report.add("level_error_db_per_band", worst_db);
-  report.add("direction_error_deg", glm::degrees(mixer.counts().direction_error_rad));
-  report.add("direction_error_deg_of_two_clusters", glm::degrees(few.counts().direction_error_rad));
+  return worst_db;
+}
+
+/// The loudest 10 ms above 1.5 kHz of a mix of low sounds alone, against the mean level of the mix: what
+/// clusters add when they change. `is_renewed`: a mixer that starts over at each moment.
+double click_db(std::size_t clusters, bool is_renewed, int moments) {
+  constexpr std::size_t count = 300, window = sound::sample_rate / 100;
+  std::optional<sound::Mixer> mixer;
+  std::vector<float> heard;
+  for (int i = 0; i < moments; ++i) {
+    auto sounds = crowd_of_sounds(count, 20 * i, false);
+    for (sound::HeardSound& it : sounds)
+      for (std::size_t band = 2; band < octaves; ++band) it.energy[band] = 0.0;
+    if (!mixer || is_renewed)
+      mixer.emplace(sound::Output::headphones, sound::MixerLimits{.clusters = clusters});
+    std::vector<float> left(sound::device_moment, 0.0f), right(left);
+    mixer->mix(sounds, left, right);
+    if (i > 1) heard.insert(heard.end(), left.begin(), left.end());
+  }
+  double total = 0.0;
+  for (const float sample : heard) total += double(sample) * double(sample);
+  // Four times a high-pass filter of first order.
+  const double weight = std::exp(-2.0 * std::numbers::pi * 1500.0 / sound::sample_rate);
+  std::vector<double> high(heard.begin(), heard.end());
+  for (int pass = 0; pass < 4; ++pass) {
+    double in = high.front(), out = 0.0;
+    for (double& sample : high) {
+      out = weight * (out + sample - in);
+      in = std::exchange(sample, out);
+    }
+  }
+  double loudest = 0.0;
+  for (std::size_t begin = 0; begin + window <= high.size(); begin += window) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < begin + window; ++i) sum += high[i] * high[i];
+    loudest = std::max(loudest, sum / double(window));
+  }
+  return propagation::level(loudest / (total / double(heard.size())));
+}
+
+void measure_mix(const BenchSetup& setup, Report& report) {
+  BandNoise::instance();
+  measure_realtime(setup, report);
+  const int moments = setup.is_quick ? 50 : 250;
+  report.add("direction_error_deg",
+             run_mix(2000, sound::MixerLimits{}.clusters, moments).direction_error_deg);
+  report.add("direction_error_deg_of_two_clusters", run_mix(2000, 2, moments).direction_error_deg);
+  const auto sounds = crowd_of_sounds(2000, 0, false);
+  report.add("level_error_db_per_band", level_error_db(sounds, {}));
+  report.add("level_error_db_per_band_of_deep_masking", level_error_db(sounds, {.masked_db = 3.0}));
+  report.add("cluster_switch_click_db", click_db(sound::MixerLimits{}.clusters, false, 4 * moments));
+  report.add("cluster_switch_click_db_of_the_unclustered_mix", click_db(300, false, 4 * moments));
+  report.add("cluster_switch_click_db_without_crossfades",
+             click_db(sound::MixerLimits{}.clusters, true, moments));
+}
+
+/// 1 where a bed of birds is heard as its samples times its gain, bit by bit.
+double bed_is_identical(const std::shared_ptr<const sound::Recording>& birds, bool has_fountain) {
+  scene::Scene scene;
+  sound::PlacedSound bed;
+  bed.kind = sound::SoundKind::bed, bed.recording = birds, bed.level_db = -4.0;
+  scene.data<scene::ItemsOf<sound::PlacedSound>>().add(bed, 0);
+  if (has_fountain) scene.data<scene::ItemsOf<sound::PlacedSound>>().add(sound::PlacedSound{}, 0);
+  sound::Listening listening(scene, sound::Output::headphones);
+  const float gain = sound::beds_of(scene).front().gain;
+  Camera ears;
+  ears.world_from_camera[3] = {0, 5, 1.7f, 1};
+  std::size_t differing = 0;
+  for (int i = 1; i <= 100; ++i) {
+    std::vector<float> left(sound::device_moment, 0.0f), right(left);
+    const std::array buffers{std::span(left), std::span(right)};
+    listening.hear(scene, ears, i / 50.0, buffers);
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      const std::size_t at = (std::size_t(i) - 1) * left.size() + k;
+      differing += left[k] != gain * birds->left[at] || right[k] != gain * birds->right[at];
+    }
+  }
+  return differing == 0 ? 1.0 : 0.0;
+}
+
+void measure_beds(Report& report) {
+  const auto folder = shared_data("sounds", std::filesystem::current_path());
+  if (!folder) return report.skip("bed_bit_identical", "the shared data is absent");
+  const auto birds =
+      std::make_shared<const sound::Recording>(must(sound::read_recording(*folder / "birds.ogg")));
+  report.add("bed_bit_identical", bed_is_identical(birds, false));
+  report.add("bed_bit_identical_beside_a_fountain", bed_is_identical(birds, true));
+}
+
+/// Random packets, of which most begin as a true message: how many are taken in with a state that is sound.
+void measure_server(const BenchSetup& setup, Report& report) {
+  const int packets = setup.is_quick ? 100'000 : 1'000'000;
+  sound::HeardSound bell;
+  bell.kind = sound::SoundKind::bell, bell.energy.fill(1e-3);
+  const std::string whole =
+      must(sound::liblo.call(&sound::LibloFunctions::encode, sound::message_of(bell, 0.0)));
+  Random random{48};
+  constexpr int checked_each = 50;
+  sound::ServedSounds served;
+  int sound_packets = 0, taken = 0;
+  for (int i = 1; i <= packets; ++i) {
+    std::string packet = whole;
+    for (int flips = random.index(12); flips > 0; --flips)
+      packet[std::size_t(random.index(int(packet.size())))] = char(random.index(256));
+    if (random.index(4) == 0) packet.resize(std::size_t(random.index(int(packet.size()))));
+    const double now_s = 1e-3 * i;
+    taken += served.take(packet, now_s) ? 1 : 0;
+    if (i % checked_each != 0) continue;
+    const std::vector<sound::HeardSound> heard = served.heard(now_s);
+    const bool is_sound =
+        heard.size() <= sound::ServedSounds::max_sounds &&
+        std::ranges::all_of(heard, [](const sound::HeardSound& it) {
+          return std::isfinite(it.emitted_s) && std::abs(glm::length(it.direction) - 1.0f) < 1e-3f &&
+                 std::ranges::all_of(it.energy, [](double e) { return e >= 0.0 && e < 1e6; });
+        });
+    sound_packets += is_sound ? checked_each : 0;
+  }
+  report.note(fmt::format("{} packets, {} of them messages", packets, taken));
+  report.add("osc_packets_fuzzed", sound_packets);
 }
 
 /// A street, a house and listeners about it.
@@ -155,6 +320,8 @@ void measure_listening(Report& report) {
 
 void measure_sound(const BenchSetup& setup, Report& report) {
   measure_mix(setup, report);
+  measure_beds(report);
+  measure_server(setup, report);
   measure_listening(report);
 }
 
