@@ -228,8 +228,7 @@ void Panel::draw_processes(Visit& visit) {
 
 void Panel::draw_sound(Hearing& hearing) {
   rows_.heading("Sound");
-  rows_.remark(hearing.sounds() == 1 ? "1 sound is heard"
-                                     : fmt::format("{} sounds are heard", hearing.sounds()));
+  rows_.value("Sources", fmt::format("{}", hearing.sounds()));
   bool is_muted = hearing.is_muted();
   if (rows_.flag("Muted", is_muted, "the key M does the same")) hearing.mute(is_muted);
 }
