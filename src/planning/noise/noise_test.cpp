@@ -158,8 +158,7 @@ class NoiseMapNode : public scene::ScriptTest<> {
   NoiseMapNode()
       : ScriptTest([] {
           Registries registries;
-          script::register_room(registries), traffic::register_room(registries),
-              noise::register_room(registries);
+          script::register_room(registries), noise::register_room(registries);
           return registries;
         }()) {}
 };
