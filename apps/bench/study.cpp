@@ -161,7 +161,7 @@ void measure_latin_squares(const nlohmann::json& squares, Report& report) {
   report.add("latin_squares_balanced_of_controls", double(right_of_controls) / controls);
 }
 
-/// What libxdf finds in a file must be, by the records.
+/// The contents that libxdf must find in a file, by the records.
 std::string expected_of(const study::LoggedSession& session, const std::vector<study::Record>& records) {
   std::array<std::string, 3> times, values;
   std::array<std::vector<std::vector<float>>, 3> channels;

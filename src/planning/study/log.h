@@ -62,7 +62,7 @@ class Log {
   /// Opens one that is there, for reading.
   static Result<Log> read(const std::filesystem::path& file);
 
-  const std::filesystem::path& file() const { return file_; }
+  const std::filesystem::path& file() const { return file_; }  ///< the log's
   /// Sessions in the order in which they began.
   Result<std::vector<LoggedSession>> sessions() const;
   /// The session of that participant; none: there is none yet.
