@@ -783,6 +783,54 @@ class CurvedMirrors(BeforeAMirror):
             self.assertIn("rebuilt", told)
             self.assertEqual(middle, right)
 
+    KINDS_OF_KEPT_FILES = {"*/*.map": "map", "reflectors/*.reflector": "reflector", "bounced_light/*.transfer": "bounced light"}
+
+    def write_all_kinds(self):
+        """A scene of which every kind of result is kept."""
+        self.write_ball(rings=8)
+        nodes = ['referenceMaps(position="0 -3 1.2")', "bouncedLight(spacing=20, rays=16)",
+                 'reflection(method="multiple_environment_maps", virtual_within=4)']
+        return self.write_place(*nodes)
+
+    def bake(self, scene):
+        done = run("bake", scene)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def kept_files(self, kind):
+        kept = list(self.folder.glob(f"scene.baked/{kind}"))
+        self.assertTrue(kept, kind)
+        return kept
+
+    def test_a_flipped_bit_in_any_kept_file_is_noticed(self):
+        scene = self.write_all_kinds()
+        self.bake(scene)
+        told, right = self.render(scene)
+        self.assertNotIn("damaged", told)
+        for kind, name in self.KINDS_OF_KEPT_FILES.items():
+            kept = self.kept_files(kind)[0]
+            whole = kept.read_bytes()
+            for at in [9, len(whole) // 2, len(whole) - 1]:
+                flipped = bytearray(whole)
+                flipped[at] ^= 0x10
+                kept.write_bytes(flipped)
+                told, middle = self.render(scene)
+                self.assertIn(f"{kept.name}: is cut short or damaged", told, (name, at))
+                self.assertEqual(middle, right, (name, at))
+            kept.write_bytes(whole)
+
+    def test_two_that_bake_one_scene_at_once_both_succeed(self):
+        scene = self.write_all_kinds()
+        self.bake(scene)
+        alone = {path: path.read_bytes() for kind in self.KINDS_OF_KEPT_FILES for path in self.kept_files(kind)}
+        for _ in range(3):
+            shutil.rmtree(self.folder / "scene.baked")
+            both = [subprocess.Popen([PARVIS, "bake", scene], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for _ in range(2)]
+            for process in both:
+                told = process.communicate(timeout=240)[1]
+                self.assertEqual(process.returncode, 0, told)
+            kept = {path: path.read_bytes() for path in (self.folder / "scene.baked").glob("*/*")}
+            self.assertEqual(kept, alone)
+
 
 class Photomontages(InAFolder):
     """A design in a photograph, whose camera six clicked points tell."""

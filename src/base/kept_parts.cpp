@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/file_front.h"
+#include "base/partial_file.h"
 
 namespace parvis {
 namespace {
@@ -11,6 +12,11 @@ namespace fs = std::filesystem;
 bool is_link(const fs::path& path) {
   std::error_code code;
   return fs::is_symlink(fs::symlink_status(path, code));
+}
+
+/// Whether another process is writing the file: its name is hidden until then, and no part's name is.
+bool is_being_written(const fs::path& file) {
+  return file.filename().string().starts_with('.') && !is_abandoned(file);
 }
 
 /// Checks that what lies at `file` may be replaced: nothing, a part of this kind or, in a folder of the
@@ -71,8 +77,8 @@ void KeptParts::remove(const std::set<fs::path>& kept) const {
   std::error_code code;
   std::vector<fs::path> parts;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_, code))
-    if (entry.path().extension() == extension_ && !kept.contains(entry.path()) &&
-        check_place(folder_, entry.path(), kind_, owner_))
+    if (entry.path().extension() == extension_ && !is_being_written(entry.path()) &&
+        !kept.contains(entry.path()) && check_place(folder_, entry.path(), kind_, owner_))
       parts.push_back(entry.path());
   for (const fs::path& part : parts) fs::remove(part, code);
   fs::remove(folder_, code);  // fails where something else lies in it

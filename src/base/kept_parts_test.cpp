@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
+#include "base/partial_file.h"
 #include "base/test_folder.h"
 
 namespace parvis {
@@ -53,6 +54,20 @@ TEST(KeptParts, SomebodysOwnFileIsNeitherReplacedNorRemoved) {
   parts.remove();
   EXPECT_FALSE(fs::exists(own.parent_path() / "colours.part"));
   EXPECT_EQ(*read_file(own), "a part of a novel");
+}
+
+TEST(KeptParts, WhatAnotherProcessIsWritingStays) {
+  const TestFolder folder;
+  const KeptParts parts(folder.path(), unfinished_work, ".part", FolderOf::program);
+  ASSERT_TRUE(parts.keep("colours", 7, "seven"));
+  Result<PartialFile> other = PartialFile::create(parts.file("opacity"));
+  ASSERT_TRUE(other) << to_string(other.errors());
+  parts.remove();
+  EXPECT_FALSE(parts.find("colours", 7));
+  ASSERT_TRUE(other->write(sealed_bytes(unfinished_work, std::string(8, '\0') + "eight")));
+  const Status status = other->keep();
+  EXPECT_TRUE(status) << to_string(status.errors());
+  EXPECT_EQ(parts.find("opacity", 0), "eight");
 }
 
 TEST(KeptParts, NothingGoesThroughALink) {

@@ -134,15 +134,6 @@ void on_signal(int) {
   remove_partial_files_and_end("parvis: interrupted; what was being written is removed\n");
 }
 
-/// Whether nobody works on the file or folder any more: who does holds a lock on it.
-bool is_abandoned(const fs::path& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0) return false;
-  const bool is_free = flock(file, LOCK_EX | LOCK_NB) == 0;
-  close(file);
-  return is_free;
-}
-
 constexpr std::size_t random_digits = 8;
 
 /// Whether `name` is one of those that make_listed gives: "original" in place of the digits is somebody's
@@ -248,6 +239,14 @@ Result<fs::path> target_of(const fs::path& named) {
 }
 
 }  // namespace
+
+bool is_abandoned(const fs::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool is_free = flock(file, LOCK_EX | LOCK_NB) == 0;
+  close(file);
+  return is_free;
+}
 
 Result<PartialFile> PartialFile::create(const fs::path& named) {
   std::error_code code;

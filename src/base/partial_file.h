@@ -40,6 +40,9 @@ class PartialFile {
   int lock_;  ///< descriptor of the file while it is worked on
 };
 
+/// Whether nobody works on a partial file or folder any more: who does holds a lock on it.
+bool is_abandoned(const std::filesystem::path& path);
+
 /// A new, empty folder of a name that nobody can guess, for files that later move to their places. The
 /// destructor removes it with all that is in it, and so does a signal that ends the program (its files, not
 /// folders inside it).
