@@ -137,7 +137,7 @@ SkySamples DrawnSky::samples(const light::SkyModel& sky, const light::DayLight& 
   const double sun_deg = glm::degrees(std::asin(std::clamp(double(sky.to_sun().z), -1.0, 1.0)));
   scene_.sun = {sky.to_sun(), glm::vec3(1.0f)};
   scene_.sky.picture = light::sky_picture(sky, day, picture_px);
-  scene_.sky.file = "computed", ++scene_.sky.version;
+  ++scene_.sky.version;
   SkySamples samples;
   for (int face = 0; face < 6; ++face) {
     must(render::draw_frame(*renderer_, scene_, {light::view_of_sky(face), view_px, view_px}));

@@ -104,10 +104,9 @@ Status light_scene(scene::Scene& scene) {
   set_sun(scene, {sky.to_sun(), displayable(sky.sun_irradiance_xyz())});
   scene.sky.picture = sky_picture(sky, day, picture_width_px(day));
   scene.sky.intensity = 1.0f, scene.sky.heading = 0.0f;
-  // No file, but a name for what the picture was made from: by it the renderer sees that the sky is another.
   ContentHash content;
   day.hash(content);
-  scene.sky.file = fmt::format("dayLight {:016x}", content.value());
+  scene.sky.version = int(content.value());
   day.illuminance = sky.irradiance_xyz({0, 0, 1}).y;
   scene.data<scene::Darkness>().is_dark = day.illuminance < lamps_on;
   adapt(scene);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/content_hash.h"
 #include "base/registries.h"
 #include "graphics/light/day_light.h"
 #include "graphics/light/nodes_day_light.h"
@@ -93,11 +94,14 @@ void build_sky(const Node& node, SceneBuilder& builder) {
   sky.intensity = float(node.number("intensity"));
   sky.heading = node.angle("heading_deg");
   const std::filesystem::path file = node.file("file");
-  if (file == sky.file) return;  // it is there already
+  ContentHash content;
+  content.add_text(file.string());
+  const int version = file.empty() ? Sky().version : int(content.value());
+  if (version == sky.version) return;  // it is there already
   std::optional<ImageF> picture = file.empty() ? ImageF() : light::read_sky_picture(node, "file", builder);
   if (!picture) return;
   sky.picture = std::move(*picture);
-  sky.file = file;
+  sky.version = version;
 }
 
 NodeSchema air_schema() {

@@ -36,14 +36,11 @@ class SkyTextures {
 
   /// The input that the light was made of.
   struct Source {
-    std::filesystem::path file;
     int version;
     float intensity, heading;
     bool operator==(const Source&) const = default;
   };
-  static Source source_of(const scene::Sky& sky) {
-    return {sky.file, sky.version, sky.intensity, sky.heading};
-  }
+  static Source source_of(const scene::Sky& sky) { return {sky.version, sky.intensity, sky.heading}; }
 
   Source source_;
   shading::SkyLight light_;

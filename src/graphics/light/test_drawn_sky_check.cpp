@@ -35,7 +35,6 @@ Result<DrawnSkyError> drawn_sky_error(SkyKind kind, double turbidity, double ele
   scene::Scene scene;
   scene.sun = {(*sky)->to_sun(), glm::vec3(1.0f)};
   scene.sky.picture = sky_picture(**sky, {}, 512);
-  scene.sky.file = "computed";
   auto renderer = render::Renderer::create(scene, {}, sun_and_sky);
   if (!renderer) return renderer.errors();
   shading::SkyLight expected_sky = (*renderer)->sky();

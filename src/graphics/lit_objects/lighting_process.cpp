@@ -145,8 +145,7 @@ bool LightingProcess::follow_casters(const scene::Scene& scene) {
 }
 
 bool LightingProcess::follow_sky(const scene::Scene& scene) {
-  SkySource source{scene.sky.file, scene.sky.version, scene.sky.intensity, scene.sky.heading,
-                   scene::sun_light(scene)};
+  SkySource source{scene.sky.version, scene.sky.intensity, scene.sky.heading, scene::sun_light(scene)};
   if (sky_source_ == source) return false;
   sky_source_ = std::move(source);
   sky_ = std::make_unique<light::SkyTable>(scene);

@@ -1,7 +1,6 @@
 // Lights the objects of litVirtualObject nodes while a scene runs.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -31,7 +30,6 @@ class LightingProcess final : public action::Process {
  private:
   /// The input that the sky was made of.
   struct SkySource {
-    std::filesystem::path file;
     int version;
     float intensity, heading;
     scene::SunLight sun;
