@@ -24,13 +24,13 @@ Result<const void*> load(std::string_view name) {
   const std::filesystem::path file = module_folder() / fmt::format("parvis_{}.so", name);
   void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   const void* const functions = module == nullptr ? nullptr : dlsym(module, "parvis_functions");
-  if (functions == nullptr)
-    return error(
-        "this needs a part of Parvis that cannot be loaded ({}); install the library that is missing, or "
-        "Parvis "
-        "once more",
-        dlerror());
-  return functions;
+  if (functions != nullptr) return functions;
+  const std::string reason = dlerror();
+  const bool is_short_of_memory =
+      reason.find("failed to map") != std::string::npos || reason.find("annot allocate") != std::string::npos;
+  return error("this needs a part of Parvis that cannot be loaded ({}); {}", reason,
+               is_short_of_memory ? "allow more memory (ulimit -v)"
+                                  : "install the library that is missing, or Parvis once more");
 }
 
 }  // namespace

@@ -3,17 +3,23 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <mutex>
+#include <ranges>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 namespace parvis {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double terminal_interval_s = 0.1;
-constexpr double log_interval_s = 10.0;
+using namespace std::chrono_literals;
+constexpr Clock::duration terminal_interval = 100ms, log_interval = 4s;
+constexpr Clock::duration min_age = 1s;  // what is done sooner is not worth a line of a log
 constexpr int bar_width = 30;
 
 double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
@@ -21,41 +27,98 @@ double seconds(Clock::duration duration) { return std::chrono::duration<double>(
 }  // namespace
 
 struct Progress::State {
+  class Printer;
+
   std::string what;
   std::size_t total;
-  bool is_terminal = isatty(STDERR_FILENO) != 0;
-  std::atomic<std::size_t> done{0};
-  Clock::time_point start = Clock::now(), last_print = start;
-  std::mutex mutex{};  ///< of last_print and of the output
+  std::size_t done = 0;
+  Clock::time_point start = Clock::now();
+};
 
-  void print(std::size_t now_done) const {
-    const double share = total > 0 ? double(now_done) / double(total) : 1.0;
-    const double left_s = share > 0.0 ? seconds(last_print - start) * (1.0 - share) / share : 0.0;
+/// Prints for all of a process: of the works that run one inside the other the innermost that has lasted a
+/// while, as it advances and, where one of its steps takes long, from a thread.
+class Progress::State::Printer {
+ public:
+  static Printer& get() {
+    static Printer printer;
+    return printer;
+  }
+
+  void begin(State& work) {
+    const std::scoped_lock lock(mutex_);
+    running_.push_back(&work);
+    if (is_terminal_ || thread_.joinable() || has_no_thread_) return;
+    try {
+      thread_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
+    } catch (const std::system_error&) {  // too little memory: lines come as the work advances
+      has_no_thread_ = true;
+    }
+  }
+
+  void end(State& work) {
+    const std::scoped_lock lock(mutex_);
+    std::erase(running_, &work);
+    if (is_terminal_ && work.done > 0) fmt::print(stderr, "\r\033[K");
+  }
+
+  void advance(State& work, std::size_t steps) {
+    const std::scoped_lock lock(mutex_);
+    work.done += steps;
+    const Clock::time_point now = Clock::now();
+    if (is_terminal_ ? now - last_print_ >= terminal_interval && now - work.start >= terminal_interval
+                     : is_due(work, now))
+      print(work, now);
+  }
+
+ private:
+  bool is_due(const State& work, Clock::time_point now) const {
+    return now - last_print_ >= log_interval && now - work.start >= min_age;
+  }
+
+  void watch(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (!stop.stop_requested()) {
+      wake_.wait_for(lock, stop, min_age, [] { return false; });
+      const Clock::time_point now = Clock::now();
+      for (const State* work : running_ | std::views::reverse)
+        if (is_due(*work, now)) {
+          print(*work, now);
+          break;
+        }
+    }
+  }
+
+  void print(const State& work, Clock::time_point now) {
+    last_print_ = now;
+    const double fraction = work.total > 0 ? double(work.done) / double(work.total) : 0.0;
+    const std::string left = fraction > 0.0 ? fmt::format(", about {:.0f} s left",
+                                                          seconds(now - work.start) * (1.0 / fraction - 1.0))
+                                            : "";
     const std::string text =
-        fmt::format("{} {}/{} ({:.0f} %), about {:.0f} s left", what, now_done, total, 100.0 * share, left_s);
-    if (is_terminal)
-      fmt::print(stderr, "\r\033[K[{:-<{}}] {}", std::string(std::size_t(share * bar_width), '#'), bar_width,
-                 text);
+        fmt::format("{} {}/{} ({:.0f} %){}", work.what, work.done, work.total, 100.0 * fraction, left);
+    if (is_terminal_)
+      fmt::print(stderr, "\r\033[K[{:-<{}}] {}", std::string(std::size_t(fraction * bar_width), '#'),
+                 bar_width, text);
     else
       fmt::print(stderr, "{}\n", text);
     std::fflush(stderr);
   }
+
+  const bool is_terminal_ = isatty(STDERR_FILENO) != 0;
+  bool has_no_thread_ = false;
+  std::mutex mutex_;  ///< of all that follows, of the works and of the output
+  std::condition_variable_any wake_;
+  std::vector<State*> running_;  ///< innermost last
+  Clock::time_point last_print_ = Clock::now();
+  std::jthread thread_;  ///< last, so that it ends before what it uses
 };
 
-Progress::Progress(std::string what, std::size_t total) : state_(new State{std::move(what), total}) {}
-
-Progress::~Progress() {
-  if (state_->is_terminal && state_->done > 0) fmt::print(stderr, "\r\033[K");
+Progress::Progress(std::string what, std::size_t total) : state_(new State{std::move(what), total}) {
+  State::Printer::get().begin(*state_);
 }
 
-void Progress::advance(std::size_t steps) {
-  const std::size_t done = state_->done += steps;
-  const std::scoped_lock lock(state_->mutex);
-  const Clock::time_point now = Clock::now();
-  if (seconds(now - state_->last_print) < (state_->is_terminal ? terminal_interval_s : log_interval_s))
-    return;
-  state_->last_print = now;
-  state_->print(done);
-}
+Progress::~Progress() { State::Printer::get().end(*state_); }
+
+void Progress::advance(std::size_t steps) { State::Printer::get().advance(*state_, steps); }
 
 }  // namespace parvis
