@@ -469,14 +469,19 @@ std::string system_of(const std::string& xml, const FileLocation& where, Errors&
 
 Result<Gml2> read_gml_2(const std::filesystem::path& file, Errors& warnings, FileAccount* account) {
   const FileLocation where{file.string(), 0, 0};
-  Result<XmlText> xml = read_xml(file);
+  FileAccount unasked("CityGML");
+  FileAccount& held = account ? *account : unasked;
+  Result<XmlText> xml = read_xml(file, [&](const char* name, const char**) {
+    const std::string_view whole(name),
+        local = whole.substr(whole.find(':') + 1);  // all of it without a prefix
+    if (local == "MultiCurve" || local == "MultiPoint")
+      held.left_out("geometries " + std::string(local), "points and lines are not drawn");
+  });
   if (!xml) return xml.errors();
   if (xml->root.find("CityModel") == std::string::npos)
     return error_at(where, "this is no CityGML: its outermost element is <{}>; expected <CityModel>",
                     xml->root.substr(0, xml->root.find(' ')));
-  FileAccount unasked("CityGML");
-  xml->bytes =
-      without_gml_extensions(plain_gml_geometry(std::move(xml->bytes)), account ? *account : unasked);
+  xml->bytes = without_gml_extensions(plain_gml_geometry(std::move(xml->bytes)), held);
   Gml2 read{{}, system_of(xml->bytes, where, warnings), georeferenced_textures(xml->bytes)};
   if (is_city_gml_3(xml->root)) {
     Result<std::string> text = city_gml_2_of(xml->bytes, where);

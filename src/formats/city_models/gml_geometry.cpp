@@ -99,7 +99,8 @@ class GmlGeometry {
     }
     if (name == "baseSurface" && !reference.empty() && !open_.empty() && open_.back().element != none)
       elements_[open_.back().element].reference = reference;
-    takes_text_ = ring_ != none && (name == "posList" || name == "pos" || name == "coordinates");
+    takes_text_ = ring_ != none && (name == "posList" || name == "pos" || name == "coordinates" ||
+                                    (!open_.empty() && open_.back().name == "coord"));
     text_.clear();
     open_.push_back(std::move(open));
   }
@@ -109,6 +110,11 @@ class GmlGeometry {
     open_.pop_back();
     if (takes_text_) take_positions(name, open.dimensions);
     takes_text_ = false;
+    if (name == "coord" && ring_ != none) {  // an element for each number
+      GmlElement& ring = elements_[ring_];
+      ring.needs_list = true;
+      ring.numbers.resize((ring.numbers.size() + 2) / 3 * 3, "0");
+    }
     if (open.element == none) return;
     GmlElement& element = elements_[open.element];
     element.inner_end = std::size_t(XML_GetCurrentByteIndex(parser_));
@@ -233,7 +239,7 @@ std::string plain_gml_geometry(std::string xml) {
   const auto has = [&](std::string_view words) { return xml.find(words) != std::string::npos; };
   const bool is_plain = !has("OrientableSurface") && !has(":coordinates") && !has("<coordinates") &&
                         !has("srsDimension=\"2\"") && !has("srsDimension='2'") && !has("pointProperty") &&
-                        !has("pointRep");
+                        !has("pointRep") && !has(":coord>") && !has("<coord>");
   if (is_plain) return xml;
   GmlGeometry geometry(xml);
   return geometry.read() ? geometry.written() : xml;

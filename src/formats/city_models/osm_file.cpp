@@ -10,6 +10,8 @@
 #include <set>
 #include <string_view>
 #include <tuple>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "base/exception_reason.h"
 #include "formats/city_models/xml_guard.h"
@@ -106,21 +108,36 @@ class OsmFileReader {
                       "left out",
                       node.id(), max_latitude_deg));
     osm_.nodes[node.id()] = deg;
-    if (!node.tags().empty()) osm_.tagged_nodes.push_back({node.id(), tags_of(node.tags())});
+    if (!node.tags().empty() && tagged_.insert(node.id()).second)
+      osm_.tagged_nodes.push_back({node.id(), tags_of(node.tags())});
   }
 
   void add(const osmium::Way& way) {
     OsmWay read{way.id(), {}, tags_of(way.tags())};
-    for (const osmium::NodeRef& node : way.nodes()) read.nodes.push_back(node.ref());
-    osm_.way_of[read.id] = osm_.ways.size();
-    osm_.ways.push_back(std::move(read));
+    for (const osmium::NodeRef& node : way.nodes()) {
+      read.nodes.push_back(node.ref());
+      // Overpass ("out geom") and osmium (add-locations-to-ways) write places in ways, some without nodes.
+      const osmium::Location at = node.location();
+      if (!at.valid()) continue;
+      const glm::dvec2 deg(at.lon_without_check(), at.lat_without_check());
+      if (is_on_earth(deg)) osm_.nodes.try_emplace(node.ref(), deg);
+    }
+    const auto [place, is_new] = osm_.way_of.try_emplace(read.id, osm_.ways.size());
+    if (is_new)
+      osm_.ways.push_back(std::move(read));
+    else  // extracts that were joined hold elements twice, histories in several versions: the last one counts
+      osm_.ways[place->second] = std::move(read);
   }
 
   void add(const osmium::Relation& relation) {
     OsmRelation read{relation.id(), {}, tags_of(relation.tags())};
     for (const osmium::RelationMember& member : relation.members())
       read.members.push_back({type_of(member.type()), member.role(), member.ref()});
-    osm_.relations.push_back(std::move(read));
+    const auto [place, is_new] = relation_of_.try_emplace(read.id, osm_.relations.size());
+    if (is_new)
+      osm_.relations.push_back(std::move(read));
+    else
+      osm_.relations[place->second] = std::move(read);
   }
 
   /// The bounds in degrees; across the date line they reach beyond 180.
@@ -168,6 +185,8 @@ class OsmFileReader {
   Errors& warnings_;
   std::size_t warning_count_ = 0;
   glm::dvec2 low_{0.0}, high_{0.0};
+  std::unordered_map<OsmId, std::size_t> relation_of_;  ///< index into the relations
+  std::unordered_set<OsmId> tagged_;
   OsmFile osm_;
 };
 

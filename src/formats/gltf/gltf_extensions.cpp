@@ -9,10 +9,11 @@
 namespace parvis::scene {
 namespace {
 
-constexpr std::array<std::string_view, 14> read_ones{"KHR_texture_transform",
+constexpr std::array<std::string_view, 15> read_ones{"KHR_texture_transform",
                                                      "KHR_materials_clearcoat",
                                                      "KHR_materials_emissive_strength",
                                                      "KHR_materials_ior",
+                                                     "KHR_materials_pbrSpecularGlossiness",
                                                      "KHR_materials_transmission",
                                                      "KHR_materials_volume",
                                                      "KHR_mesh_quantization",

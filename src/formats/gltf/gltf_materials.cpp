@@ -147,6 +147,7 @@ class MaterialReader {
     m.alpha = base.w;
     m.metallic = gltf_number(metal, "metallicFactor", 1.0f);
     m.roughness = gltf_number(metal, "roughnessFactor", 1.0f);
+    read_older_look(source, m);
     read_texture(gltf_member(metal, "baseColorTexture"), true, m, &Material::base_colour_texture, nullptr);
     read_texture(gltf_member(metal, "metallicRoughnessTexture"), false, m, &Material::surface_texture,
                  &OwnMappings::surface);
@@ -182,6 +183,20 @@ class MaterialReader {
       make_solid(m, gltf_extension(source, "KHR_materials_ior"), volume);
     if (!m.refracts()) m.base_colour *= 0.1f;  // panes are shown dark and mirroring, as they look by day
     return m;
+  }
+
+  /// Looks without metals, which stand in place of that of the standard.
+  void read_older_look(const Json& source, Material& m) {
+    const Json& extensions = gltf_member(source, "extensions");
+    const Json& older = gltf_member(extensions, "KHR_materials_pbrSpecularGlossiness");
+    if (!older.empty() && !source.contains("pbrMetallicRoughness")) {
+      const glm::vec4 diffuse = gltf_vector<4>(older, "diffuseFactor", glm::vec4(1.0f));
+      m.base_colour = glm::vec3(diffuse), m.alpha = diffuse.w, m.metallic = 0.0f;
+      m.roughness = 1.0f - gltf_number(older, "glossinessFactor", 1.0f);
+      read_texture(gltf_member(older, "diffuseTexture"), true, m, &Material::base_colour_texture, nullptr);
+      account_.changed("colours of highlights", "those of materials without metals are white", m.name);
+    }
+    if (extensions.contains("KHR_materials_unlit")) m.metallic = 0.0f, m.roughness = 1.0f;
   }
 
   /// Ambient occlusion: the red of the surface texture where the file says that it is the same, else a

@@ -85,6 +85,7 @@ Mesh read_primitive(const GltfFile& file, const GltfFile::Json& primitive, const
   const int mode = primitive.value("mode", triangles);
   if (mode != triangles && mode != strip && mode != fan) return {};
   const GltfFile::Json& attributes = gltf_member(primitive, "attributes");
+  if (!attributes.contains("POSITION")) return {};
   Mesh mesh;
   mesh.positions = gltf_attribute<3>(file, attributes, "POSITION");
   mesh.normals = gltf_attribute<3>(file, attributes, "NORMAL");
@@ -118,6 +119,10 @@ void count_primitives(const GltfFile& file, const GltfFile::Json& mesh, const st
     const int mode = primitive.value("mode", triangles);
     if (mode != triangles && mode != strip && mode != fan) {
       account.left_out("primitives", "points and lines have no surface", name);
+      continue;
+    }
+    if (!gltf_member(primitive, "attributes").contains("POSITION")) {
+      account.left_out("primitives", "they have no positions", name);
       continue;
     }
     account.used("primitives");

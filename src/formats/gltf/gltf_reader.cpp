@@ -64,7 +64,7 @@ void settle_origin(Model& model, FileAccount& account) {
   }
   model.origin = formats::local_origin(low, high);
   model.nodes.front().translation = -model.origin;
-  formats::note_origin(model.origin, account);
+  formats::note_origin(model.origin, model.map, account);
 }
 
 /// Counts the file's contents beside nodes, meshes and materials.

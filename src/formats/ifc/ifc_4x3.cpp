@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <optional>
+#include <vector>
 
 namespace parvis::scene {
 namespace {
@@ -94,6 +95,33 @@ void reorder(std::string& text, std::size_t first) {
   if (is_new_order) text.replace(*second, *fourth - *second - 1, normals + "," + closed);
 }
 
+/// Writes a move onto a map (IfcRigidOperation), and one whose axes have factors, as the conversion that IFC
+/// 4 has.
+void rename_map_operations(std::string& text) {
+  constexpr std::string_view conversion = "IFCMAPCONVERSION", measure = "IFCLENGTHMEASURE(";
+  for (const std::string_view name :
+       {std::string_view("IFCRIGIDOPERATION"), std::string_view("IFCMAPCONVERSIONSCALED")})
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+      const std::size_t open = text.find_first_not_of(blanks, at + name.size());
+      if (open == std::string::npos || text[open] != '(') continue;
+      std::vector<std::string> attributes;
+      std::size_t begin = open + 1;
+      for (auto next = next_attribute(text, begin); next; next = next_attribute(text, begin))
+        attributes.push_back(text.substr(begin, *next - 1 - begin)), begin = *next;
+      const std::size_t end = text.find(')', begin);  // the last attribute is a number or the height
+      if (end == std::string::npos) return;
+      attributes.push_back(text.substr(begin, end - begin));
+      const bool is_rigid = name == "IFCRIGIDOPERATION";
+      if (attributes.size() < (is_rigid ? 5U : 8U)) continue;
+      for (std::string& attribute : attributes)
+        if (const std::string_view value = trimmed(attribute); value.starts_with(measure))
+          attribute = value.substr(measure.size(), value.find(')') - measure.size());
+      attributes.resize(is_rigid ? 5 : 8);
+      if (is_rigid) attributes.resize(8, "$");
+      text.replace(at, end - at, fmt::format("{}({}", conversion, fmt::join(attributes, ",")));
+    }
+}
+
 /// IFC++ reads no entity of a schema whose name it does not know.
 void rename_schema(std::string& text) {
   constexpr std::string_view newer = "'IFC4X3", older = "'IFC4'";
@@ -139,6 +167,7 @@ std::string ifc_4_of_4x3(std::string text) {
     const std::size_t open = text.find_first_not_of(blanks, at + faces.size());
     if (open != std::string::npos && text[open] == '(') reorder(text, open + 1);
   }
+  rename_map_operations(text);
   return text;
 }
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "scene/data/file_account.h"
+
 class BuildingModel;
 
 namespace parvis::scene {
@@ -20,10 +22,10 @@ struct IfcGeoreference {
       place_deg;  ///< of the site, else of the origin on the map: degrees, east and north
 };
 
-/// The place by IfcMapConversion (whose scale, less than a per mille off 1, is left out), else by the
-/// TrueNorth of the file's context, and by the latitude and longitude of IfcSite. Numbers that are not finite
-/// or on no map count as none.
-IfcGeoreference georeference_of(BuildingModel& building);
+/// The place by IfcMapConversion, or by the property sets that stand for it in IFC 2x3 (their scale is not
+/// applied, and named in `account`), else by the TrueNorth of the file's context, and by the latitude and
+/// longitude of IfcSite. Numbers that are not finite or on no map count as none.
+IfcGeoreference georeference_of(BuildingModel& building, FileAccount& account);
 
 /// The same place on another map (formats/terrain/map_projection.h), turned to its north; as it was where one
 /// of the two is not known.

@@ -420,7 +420,7 @@ Result<IfcBodies> bodies_of(std::string text, const std::string& name, Errors& w
     complaints.name_entities(*building);
     account_for_unknown(read, *building, bodies.account);
     bodies.pictures = textures.pictures();
-    bodies.place = georeference_of(*building);
+    bodies.place = georeference_of(*building, bodies.account);
   } catch (const std::exception& failure) {
     return Error{fmt::format("IFC++ cannot read it: {}", failure.what()), {name, 0, 0}};
   } catch (const carve::exception& failure) {

@@ -241,9 +241,10 @@ class Assembly {
   }
 
   void add(SoCallbackAction& walk, std::array<const SoPrimitiveVertex*, 3> corners) {
-    if (is_clockwise_) std::swap(corners[1], corners[2]);
     Mesh& mesh = model_.parts[std::size_t(part_of(walk, corners[0]->getMaterialIndex()))].mesh;
     const SbMatrix& placed = walk.getModelMatrix();
+    // A mirrored triangle turns its back.
+    if (is_clockwise_ != (placed.det3() < 0.0f)) std::swap(corners[1], corners[2]);
     const SbMatrix normals = placed.inverse().transpose();
     for (const SoPrimitiveVertex* corner : corners) {
       SbVec3f point, normal;

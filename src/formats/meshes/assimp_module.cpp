@@ -21,6 +21,7 @@
 #include "base/image_io.h"
 #include "base/isolated_process.h"
 #include "formats/meshes/far_vertices.h"
+#include "formats/meshes/polygon_ears.h"
 #include "formats/meshes/text_account.h"
 #include "formats/readers/local_origin.h"
 #include "formats/readers/plain_account.h"
@@ -76,7 +77,6 @@ class Converter {
     if (Status status = add_nodes(z_up); !status) return status.errors();
     if (model_.parts.empty()) return nothing_drawn();
     model_.origin += origin;
-    formats::note_origin(model_.origin, account_);
     count_others();
     return std::move(model_);
   }
@@ -338,9 +338,45 @@ std::string lower_case_extension(const fs::path& file) {
   return extension;
 }
 
+/// Cuts the concave polygons of a mesh into triangles: assimp cuts ears off that have another corner on their
+/// side, as an even L has.
+void cut_concave_polygons(aiMesh& mesh) {
+  constexpr unsigned max_corners = 2000;  // the work grows with their square; assimp cuts larger ones
+  std::vector<aiFace> faces;
+  bool is_cut = false;
+  for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+    const aiFace& face = mesh.mFaces[i];
+    std::vector<glm::dvec2> corners;
+    if (face.mNumIndices > 3 && face.mNumIndices <= max_corners) {
+      std::vector<glm::dvec3> in_space;
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        if (face.mIndices[k] >= mesh.mNumVertices) break;
+        const aiVector3D& p = mesh.mVertices[face.mIndices[k]];
+        in_space.emplace_back(p.x, p.y, p.z);
+      }
+      if (in_space.size() == face.mNumIndices) corners = corners_in_plan(in_space);
+    }
+    if (!is_concave(corners)) {
+      faces.push_back(face);
+      continue;
+    }
+    is_cut = true;
+    for (const std::array<std::uint32_t, 3>& ear : ears(corners)) {
+      aiFace& triangle = faces.emplace_back();
+      triangle.mNumIndices = 3, triangle.mIndices = new unsigned[3];  // the face deletes it
+      for (std::size_t k = 0; k < 3; ++k) triangle.mIndices[k] = face.mIndices[ear[k]];
+    }
+  }
+  if (!is_cut) return;
+  delete[] mesh.mFaces;
+  mesh.mNumFaces = unsigned(faces.size()), mesh.mFaces = new aiFace[faces.size()];  // the mesh deletes them
+  std::ranges::copy(faces, mesh.mFaces);
+  mesh.mPrimitiveTypes |= aiPrimitiveType_TRIANGLE;
+}
+
 /// A file whose coordinates are those of a national grid.
 struct FarFile {
-  std::string bytes;       ///< with the origin taken off; empty: read the file itself
+  std::string bytes;  ///< with the origin taken off, and names that assimp knows; empty: read the file itself
   glm::dvec3 origin{0.0};  ///< in the model's axes
   bool is_y_up;
 };
@@ -353,7 +389,9 @@ FarFile brought_near(const fs::path& file, const std::string& extension, formats
   const Result<std::string> bytes = read_file(file);
   if (!bytes) return near;  // assimp says what is wrong
   count_what_assimp_drops(*bytes, file, extension, account);
-  const std::optional<VertexBox> box = far_vertices(*bytes, extension);
+  near.bytes = with_known_names(*bytes, extension);
+  const std::string& read = near.bytes.empty() ? *bytes : near.bytes;
+  const std::optional<VertexBox> box = far_vertices(read, extension);
   if (!box) return near;
   // No height is that of a northing.
   if (near.is_y_up && up == formats::UpAxis::file && std::abs(box->low.y) > formats::max_local_m &&
@@ -364,7 +402,7 @@ FarFile brought_near(const fs::path& file, const std::string& extension, formats
   const glm::dvec3 low = z_up_of(box->low, near.is_y_up), high = z_up_of(box->high, near.is_y_up);
   near.origin = formats::local_origin(glm::min(low, high), glm::max(low, high));
   const glm::dvec3 o = near.origin, in_file = near.is_y_up ? glm::dvec3(o.x, o.z, -o.y) : o;
-  if (in_file != glm::dvec3(0.0)) near.bytes = moved_vertices(*bytes, extension, in_file);
+  if (in_file != glm::dvec3(0.0)) near.bytes = moved_vertices(read, extension, in_file);
   return near;
 }
 
@@ -386,9 +424,11 @@ Result<formats::FileContent> read(const fs::path& file, formats::UpAxis up, Erro
     keep_importers_of(extension.substr(std::min<std::size_t>(1, extension.size())), importer);
     importer.SetIOHandler(new RootedFiles(file, near.bytes));  // the importer deletes it
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, crease_deg);
-    const aiScene* scene =
-        importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_GenSmoothNormals |
-                                             aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
+    const aiScene* scene = importer.ReadFile(file.string(), 0);
+    for (unsigned i = 0; scene && i < scene->mNumMeshes; ++i) cut_concave_polygons(*scene->mMeshes[i]);
+    if (scene)
+      scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_GenSmoothNormals |
+                                           aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
     if (!scene && std::string_view(importer.GetErrorString()).find("bad_alloc") != std::string_view::npos)
       return error_at(where, "claims more vertices or faces than there is memory for; the file is damaged");
     if (!scene || !scene->mRootNode)

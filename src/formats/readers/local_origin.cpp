@@ -21,10 +21,13 @@ glm::dvec3 local_origin(glm::dvec3 low, glm::dvec3 high) {
   return origin;
 }
 
-void note_origin(glm::dvec3 origin, scene::FileAccount& account) {
+void note_origin(glm::dvec3 origin, const std::string& map, scene::FileAccount& account) {
   if (origin == glm::dvec3(0.0)) return;
-  account.changed("coordinates", fmt::format("given about the local origin {:.0f} {:.0f} {:.0f}", origin.x,
-                                             origin.y, origin.z));
+  const std::string system = map.starts_with("EPSG:") ? " of " + map
+                             : map.empty()            ? "; no coordinate system is named"
+                                                      : " of the file's own coordinate system";
+  account.changed("coordinates", fmt::format("given about the local origin {:.0f} {:.0f} {:.0f}{}", origin.x,
+                                             origin.y, origin.z, system));
 }
 
 }  // namespace parvis::formats

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <string>
 
 #include "scene/data/file_account.h"
 
@@ -15,7 +16,8 @@ inline constexpr double max_local_m = 10'000.0;
 /// that is nowhere within `max_local_m` of zero, the middle of such heights; else zero.
 glm::dvec3 local_origin(glm::dvec3 low, glm::dvec3 high);
 
-/// Notes a local origin other than zero in the account.
-void note_origin(glm::dvec3 origin, scene::FileAccount& account);
+/// Notes a local origin other than zero in the account, with the map's system (`map`, as models hold it;
+/// empty: the file names none).
+void note_origin(glm::dvec3 origin, const std::string& map, scene::FileAccount& account);
 
 }  // namespace parvis::formats

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "formats/readers/local_origin.h"
+
 namespace parvis::formats {
 
 void count_what_is_shown(const scene::Model& model, scene::FileAccount& account) {
@@ -12,6 +14,7 @@ void count_what_is_shown(const scene::Model& model, scene::FileAccount& account)
   account.used("images", model.textures.size());
   account.used("animations", model.animations.size());
   account.used("roads", model.roads.size());
+  note_origin(model.origin, model.map, account);
 }
 
 Result<FileContent> with_plain_account(std::string format, Result<scene::Model> model) {

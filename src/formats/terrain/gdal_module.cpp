@@ -139,6 +139,10 @@ std::vector<int> taken(int count, int all) {
   return places;
 }
 
+/// Values that programs write where nothing was measured, also into files that declare no such value: no land
+/// lies there.
+constexpr std::array usual_holes{-9999.0, -32767.0, -32768.0, -99999.0};
+
 /// Heights in metres, NaN where there is none; every step-th sample.
 bool read_heights(GDALRasterBandH band, double unit_m, int width, int height, HeightGrid& grid) {
   std::vector<double> values(std::size_t(grid.columns) * std::size_t(grid.rows));
@@ -154,10 +158,13 @@ bool read_heights(GDALRasterBandH band, double unit_m, int width, int height, He
   int has_nothing = 0;
   const double nothing = GDALGetRasterNoDataValue(band, &has_nothing);
   const double scale = GDALGetRasterScale(band, nullptr), offset = GDALGetRasterOffset(band, nullptr);
+  const bool has_mask = has_nothing || (GDALGetMaskFlags(band) & GMF_ALL_VALID) == 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double metres = unit_m * (offset + scale * values[i]);
-    const bool is_height =
-        mask[i] != 0 && !(has_nothing && values[i] == nothing) && std::abs(metres) < max_height_m;
+    const bool is_usual_hole = !has_mask && std::ranges::find(usual_holes, values[i]) != usual_holes.end();
+    grid.undeclared_holes += is_usual_hole;
+    const bool is_height = mask[i] != 0 && !(has_nothing && values[i] == nothing) && !is_usual_hole &&
+                           std::abs(metres) < max_height_m;
     grid.points[i].z = is_height ? metres : std::numeric_limits<double>::quiet_NaN();
   }
   return true;
@@ -230,6 +237,12 @@ Result<HeightGrid> read(const std::filesystem::path& file, std::optional<double>
   const int width = GDALGetRasterXSize(opened.get()), height = GDALGetRasterYSize(opened.get());
   if (width < 2 || height < 2 || GDALGetRasterCount(opened.get()) < 1)
     return error_at(where, "a grid of {} x {} samples has no surface; expected 2 x 2 or more", width, height);
+  if (GDALGetRasterCount(opened.get()) >= 3 &&
+      GDALGetRasterColorInterpretation(GDALGetRasterBand(opened.get(), 1)) == GCI_RedBand)
+    return error_at(
+        where,
+        "this GeoTIFF is a picture (red, green, blue), not a grid of heights; of a terrain model the "
+        "first band holds heights");
   const std::optional<Georeference> given = georeference_of(opened.get());
   if (!given && !cell_m)
     return error_at(where,

@@ -17,10 +17,12 @@ struct HeightGrid {
   std::vector<glm::dvec3> points;  ///< metres on the map, or about the grid's middle; z is NaN in holes
   bool has_place = false;          ///< on the map
   int file_columns = 0, file_rows = 0, bands = 1;  ///< of the file
-  double height_unit_m = 1.0;                      ///< of the file
-  std::string map;                                 ///< as Model::map
-  double true_north_deg = 0.0;                     ///< as Model::true_north_deg, in the middle
-  std::optional<glm::dvec2> place_deg;             ///< of the middle: degrees, east and north
+  std::size_t undeclared_holes =
+      0;                        ///< samples of a value that stands for holes, though the file does not say so
+  double height_unit_m = 1.0;   ///< of the file
+  std::string map;              ///< as Model::map
+  double true_north_deg = 0.0;  ///< as Model::true_north_deg, in the middle
+  std::optional<glm::dvec2> place_deg;  ///< of the middle: degrees, east and north
 
   const glm::dvec3& at(int column, int row) const {
     return points[std::size_t(row) * std::size_t(columns) + std::size_t(column)];

@@ -87,7 +87,9 @@ void account_for(const HeightGrid& grid, FileAccount& account) {
                     grid.points.size() - holes);
   else
     account.used("samples", grid.points.size() - holes);
-  account.unneeded("samples", "they are holes: by value, mask or alpha", "", holes);
+  account.unneeded("samples", "they are holes: by value, mask or alpha", "", holes - grid.undeclared_holes);
+  account.changed("samples", "-9999 and its like, which the file does not declare, are taken for holes", "",
+                  grid.undeclared_holes);
   account.changed("samples", "those between the ones that are taken are left to interpolation", "",
                   all - std::min(all, grid.points.size()));
   if (grid.bands > 1)
