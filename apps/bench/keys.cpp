@@ -46,6 +46,13 @@ constexpr Key keys[]{
     {"ground_gap_percent", "%", maximum(0.0), "pixels below the horizon that show no ground, 50 views, the greatest of ten places", {{"ground_gap_percent_without_plane"}}},
     {"pbf_mb_s", "MB/s", {}, "14,400 houses (62,500) as PBF, without isolation"},
     {"ifc_load_ms", "ms", {}, "scenes/pavilion.ifc in a child process"},
+    // files
+    {"reports_right", "folders", minimum(23.0), "the folders of ../shared/data/reports, each judged by what export, render, sun and facade give", {{"reports_right_broken"}}},
+    {"silent_losses_of_valid_files", "things", maximum(0.0), "objects that a second reader has and Parvis neither has nor names, in every valid file", {{"silent_losses_of_valid_files_broken"}}},
+    {"second_readers_agree_percent", "%", minimum(99.0), "objects of these files that agree, those with a known reason apart", {{"second_readers_agree_percent_broken"}}},
+    {"readers_without_account", "files", maximum(0.0), "files of these whose account is empty", {{"readers_without_account_broken"}}},
+    {"gltf2026_read_or_named", "%", minimum(100.0), "files that today's gltfpack, glTF Transform and three.js write of models of ours", {{"gltf2026_read_or_named_broken"}}},
+    {"load_ms_ratio_to_4bfb91ea", "", maximum(1.1), "check of The Hague and the p406, beside the program of 4bfb91ea", {{"load_ms_ratio_to_4bfb91ea_broken"}}},
     // plan
     {"insert_to_picture_ms", "ms", maximum(150.0), "paper city, 1280x720: a bollard inserted, to its picture over the kept one, without shadow", {{"insert_to_whole_picture_ms"}}},
     {"drag_fps", "fps", minimum(10.0), "the same view: a stone bench dragged over the kept picture, all pixels", {{"drag_fps_of_whole_pictures"}}},

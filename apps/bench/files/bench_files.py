@@ -8,6 +8,8 @@ Parts that lack a program or data are skipped by name.
 """
 
 import argparse
+import importlib.machinery
+import importlib.util
 import json
 import os
 import pathlib
@@ -23,15 +25,13 @@ PARVIS = ROOT / "build/release/apps/parvis/parvis"
 SECOND = ROOT / "script/second_readers"
 DATA = next((folder for folder in (ROOT / "../shared/data", ROOT / "shared/data") if folder.is_dir()), None)
 
-# key: (unit, target as text, whether a value reaches it, what it shows)
-KEYS = {
-    "reports_right": ("folders", "= 23", lambda v: v == 23, "../shared/data/reports, each judged by what export, render, sun and facade give"),
-    "silent_losses_of_valid_files": ("things", "0", lambda v: v == 0, "objects that a second reader has and Parvis neither has nor names"),
-    "second_readers_agree_percent": ("%", ">= 99", lambda v: v >= 99, "objects of these files that agree, those with a known reason apart"),
-    "readers_without_account": ("files", "0", lambda v: v == 0, "files of these whose account is empty"),
-    "gltf2026_read_or_named": ("%", "= 100", lambda v: v == 100, "files that today's gltfpack, glTF Transform and three.js wrote of models of ours"),
-    "load_ms_ratio_to_4bfb91ea": ("", "<= 1.1", lambda v: v <= 1.1, "check of The Hague and the p406, beside the program of 4bfb91ea"),
-}
+
+def table():
+    """The keys of this bench and figures.is_met, from script/figures: {name: row of apps/bench/keys.cpp}."""
+    loader = importlib.machinery.SourceFileLoader("figures", str(ROOT / "script/figures"))
+    figures = importlib.util.module_from_spec(importlib.util.spec_from_loader("figures", loader))
+    loader.exec_module(figures)
+    return {row["name"]: row for title, rows in figures.table_of_keys() if title == "files" for row in rows}, figures.is_met
 
 
 class Skipped(Exception):
@@ -168,18 +168,20 @@ def main():
         except Skipped as reason:
             print(f"  skipped: {reason}")
     print(f"{'key':<34}{'value':>10} {'target':<8} control" + ("  (the quick run)" if arguments.quick else ""))
+    keys, is_met = table()
     rows = []
-    for key, (unit, target, reaches, shows) in KEYS.items():
+    for key, row in keys.items():
         if key not in figures:
             continue
-        broken = figures[f"{key}_broken"]
-        if reaches(broken):
+        control = row["controls"][0]
+        if is_met(row, figures[control]):
             failed.append(f"{key}: its control reaches the target")
-        verdict = "" if reaches(figures[key]) else "MISSED"
-        print(f"{key:<34}{figures[key]:>10.4g} {target:<8} {broken:.4g} {verdict}  {shows}")
-        rows.append({"key": key, "value": figures[key], "unit": unit, "target": target, "control": broken, "shows": shows})
+        target = ("<= " if row["kind"] == "maximum" else ">= ") + f"{row['limit']:g}"
+        verdict = "" if is_met(row, figures[key]) else "MISSED"
+        print(f"{key:<34}{figures[key]:>10.4g} {target:<8} {figures[control]:.4g} {verdict}  {row['shows']}")
+        rows += [{"key": name, "value": figures[name]} for name in (key, control)]
     if arguments.json:
-        arguments.json.write_text(json.dumps({"bench": "files", "quick": arguments.quick, "figures": figures, "rows": rows}))
+        arguments.json.write_text(json.dumps({"bench": "files", "quick": arguments.quick, "figures": figures, "keys": rows}))
     for line in failed:
         print(line, file=sys.stderr)
     sys.exit(1 if failed else 0)
