@@ -121,7 +121,8 @@ std::string parked_cars(std::span<const std::string> vehicle_files) {
       text += fmt::format(
           "model(name=\"parked {}\", file=\"{}\", position=\"{:.2f} {:.2f} 0\", heading_deg={}, dynamic=1, "
           "reflective=1)\n",
-          ++number, vehicle_files[std::size_t(draw) % vehicle_files.size()],
+          ++number,
+          vehicle_files[std::size_t(7 * bay + 4 + side) % vehicle_files.size()],  // each kind in turn
           crossing.x + float(side) * from_middle_m,
           crossing.y + first_bay_m + bay_m * float(bay) + 0.25f * float(draw % 3 - 1), -90 * side);
     }
@@ -140,16 +141,22 @@ std::string day_script(std::span<const std::string> car_files) {
   for (const auto& [name, hour] :
        {std::pair{"dawn", 6.4}, {"noon", 12.0}, {"evening", 19.8}, {"night", 21.9}})
     text += fmt::format("scenario(name=\"{}\") {{ override(of=\"%dayLight\", timeOfDay={}) }}\n", name, hour);
-  // On the tour the western kerb lies in the shade: its cars mirror the eastern houses in the afternoon sun.
+  // The tour's hour: the sun stands square to the eastern houses and lights them down to the ground, while
+  // the street lies in the shade of the western ones, whose cars mirror what is lit. From the height of their
+  // windows bodywork shows houses, from above it asphalt.
+  text +=
+      "scenario(name=\"afternoon\") {\n  override(of=\"%dayLight\", timeOfDay=17.2)\n  "
+      "override(of=\"%exposure\", "
+      "value=1.8)\n}\n";
   const glm::vec3 c(main_crossing(), 0.0f);
   return text + "\n" +
          camera("kerb", c + glm::vec3(0.4f, 20.6f, 1.35f), c + glm::vec3(4.8f, 27.2f, 0.75f), 55) +
-         camera("past the cars 1", c + glm::vec3(-0.4f, 14.0f, 1.35f), c + glm::vec3(-4.8f, 21.0f, 0.75f),
+         camera("past the cars 1", c + glm::vec3(-0.8f, 18.5f, 0.85f), c + glm::vec3(-4.8f, 23.0f, 0.8f),
                 55) +
-         camera("past the cars 2", c + glm::vec3(-0.4f, 42.0f, 1.35f), c + glm::vec3(-4.8f, 49.0f, 0.75f),
+         camera("past the cars 2", c + glm::vec3(-0.8f, 46.5f, 0.85f), c + glm::vec3(-4.8f, 51.0f, 0.8f),
                 55) +
          "tour(name=\"past the cars\") {\n  stop(time_s=0, camera=\"past the cars 1\")\n"
-         "  stop(time_s=4, camera=\"past the cars 2\")\n}\n";
+         "  stop(time_s=6, camera=\"past the cars 2\")\n}\n";
 }
 
 std::string paper_script(std::span<const std::string> vehicle_files, std::uint64_t seed) {
