@@ -345,7 +345,7 @@ void add_study(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand(
       "study", "A design task with participants: conditions, log, replay, questionnaires, report");
   command->require_subcommand(1);
-  command->footer("Example: parvis study run scenes/three_corners.xp --participant P7");
+  command->footer("Example: parvis study run scenes/three_corners.study --participant P7");
   const auto arguments = std::make_shared<StudyArguments>();
   const auto add = [&](const char* name, const char* help, Status (*does)(const StudyArguments&)) {
     CLI::App* added = command->add_subcommand(name, help);
@@ -354,6 +354,7 @@ void add_study(CLI::App& app, Chosen& chosen) {
     return added;
   };
   CLI::App* run = add("run", "A session of a participant", run_study);
+  run->footer("Example: parvis study run scenes/three_corners.study --participant P1");
   arguments->add_participant(*run);
   arguments->add_language(*run);
   run->add_option("--input", arguments->input, "A file of inputs, one on each line, in place of a window");
@@ -365,6 +366,8 @@ void add_study(CLI::App& app, Chosen& chosen) {
   run->add_flag("--resume", arguments->resumes, "Go on with a session that was interrupted");
   CLI::App* replay =
       add("replay", "A session once more, bit by bit; as a film or a picture from any view", replay_study);
+  replay->footer(
+      "Example: parvis study replay scenes/three_corners.study --participant P1 --speed 8 -o p1.mp4");
   arguments->add_participant(*replay);
   replay->add_option("-o,--output", arguments->output, "A film (.mp4), or a picture (.png, .jpg) of --at");
   replay->add_option("--at", arguments->at_s, "Second of the session that the picture shows")
@@ -379,15 +382,19 @@ void add_study(CLI::App& app, Chosen& chosen) {
       ->capture_default_str();
   CLI::App* report = add(
       "report", "All sessions by condition: a page with plots, tables, files for laboratories", report_study);
+  report->footer(
+      "Example: parvis study report scenes/three_corners.study -o report.html --csv tables --xdf xdf");
   report->add_option("-o,--output", arguments->output, "The page (.html)");
   report->add_option("--csv", arguments->csv,
                      "Folder for tables: parts, answers; events and frames of each session");
   report->add_option("--xdf", arguments->xdf, "Folder for an XDF file of each session (Lab Streaming Layer)");
   report->add_flag("--blind", arguments->is_blind, "Call the conditions A, B, C");
   CLI::App* page = add("page", "The questions at the study's end as a page for a browser", write_page);
+  page->footer("Example: parvis study page scenes/three_corners.study --language fr -o questions.html");
   page->add_option("-o,--output", arguments->output, "The page (.html)")->required();
   arguments->add_language(*page);
   CLI::App* forget = add("forget", "Deletes a participant's session from the log", forget_participant);
+  forget->footer("Example: parvis study forget scenes/three_corners.study --participant P1");
   arguments->add_participant(*forget);
 }
 

@@ -3,6 +3,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "planning/study/performance.h"
 
@@ -25,6 +26,7 @@ StudyDesk::StudyDesk(study::Session& session, Planning& planning, const ImguiCon
       planning_(planning),
       imgui_(imgui),
       began_(std::chrono::steady_clock::now() - std::chrono::microseconds(session.now_us())),
+      last_us_(session.now_us()),
       shown_(session.parts().size()) {
   planning_.study = &session;
   planning_.turn_on(true);
@@ -48,22 +50,26 @@ void StudyDesk::show_part() {
   session_.note("view", "plan");
 }
 
-void StudyDesk::add_frame(double frame_s, double step_s, const Camera& eye) {
-  const std::int64_t before_us = session_.now_us();
+void StudyDesk::begin_frame() {
   session_.pass(
       std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - began_)
           .count());
-  study::Frame frame{0, step_s, float(1e3 * frame_s), eye, {}};
+  if (session_.index() != shown_) show_part();
+}
+
+void StudyDesk::add_frame(double frame_s) {
+  if (has_ended_) return;  // the next scene has begun in the log
+  Visit& visit = planning_.visit();
+  stage::Simulation& simulation = visit.stage().simulation();
+  study::Frame frame{0, visit.advanced_s(), float(1e3 * frame_s), visit.camera(), {}};
   if (const planner::Tool* tool = planning_.tool(); tool && tool->place())
     frame.wand = glm::vec3(*tool->place());
+  study::adapt_to(simulation, frame.eye);
   session_.note_frame(std::move(frame));
-  const bool is_other_part = session_.index() != shown_;
-  if (study::is_state_due(before_us, session_.now_us()) || is_other_part)
-    session_.note("state", study::state_text(study::state_of(planning_.visit().stage().simulation(),
-                                                             *planning_.session())));
-  if (is_other_part) show_part();
+  if (study::is_state_due(std::exchange(last_us_, session_.now_us()), session_.now_us()))
+    session_.note("state", study::state_text(study::state_of(simulation, *planning_.session())));
   if (session_.trouble() != told_trouble_ && !session_.trouble().empty())
-    planning_.visit().notice_error(session_.trouble());
+    visit.notice_error(session_.trouble());
   told_trouble_ = session_.trouble();
 }
 

@@ -15,8 +15,11 @@ class StudyDesk {
   /// All arguments outlive it. Puts the tool into the participant's hand and shows the present part.
   StudyDesk(study::Session& session, Planning& planning, const ImguiContext& imgui);
 
-  /// Logs the frame that took `frame_s`: the scene has advanced by `step_s`, seen from `eye`. Time goes on.
-  void add_frame(double frame_s, double step_s, const Camera& eye);
+  /// Lets time go on and shows the part that has begun. Before anything else of a frame: a replay does these
+  /// things in the order in which they are logged.
+  void begin_frame();
+  /// Logs the frame that took `frame_s`, when the scene has advanced.
+  void add_frame(double frame_s);
   /// Draws the instruction, or the questions, over a picture of this width, in ImGui's units; called between
   /// ImguiContext's begin_frame and draw.
   void draw(float picture_width);
@@ -39,6 +42,7 @@ class StudyDesk {
   Planning& planning_;
   const ImguiContext& imgui_;
   std::chrono::steady_clock::time_point began_;
+  std::int64_t last_us_ = 0;                  ///< time of the last frame
   std::size_t shown_;                         ///< index of the part that is shown
   std::map<std::string, std::string> texts_;  ///< that are being typed
   std::string told_trouble_;

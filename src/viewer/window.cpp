@@ -153,10 +153,10 @@ class Frames {
       statistics_.add(double(seconds), visit_.stage().pass_times().latest());
       const bool held = planning_.holds_things();
       if (!rests_ && !held) visit_.stage().follow_clock(1e3 * double(seconds));
+      if (study_) study_->begin_frame();
       const Controls controls = input_.poll(double(seconds));
-      const Camera eye = visit_.camera();
       visit_.step(controls, seconds, planning_.holds_things());
-      if (study_) study_->add_frame(double(seconds), visit_.advanced_s(), eye);
+      if (study_) study_->add_frame(double(seconds));
       hear(double(seconds));
       draw(double(seconds));
       const bool is_last =
@@ -289,7 +289,7 @@ Status show(stage::Simulation simulation, const WindowOptions& options) {
     const Result<Camera> start = (*stage)->camera(options.camera);
     if (!start) return start.errors();
     if (Status status = Frames(glfw.window, **stage, *start, options).run(); !status) return status;
-    if (!options.next_scene || glfwWindowShouldClose(glfw.window)) return Ok{};
+    if (!options.next_scene || options.max_frames > 0 || glfwWindowShouldClose(glfw.window)) return Ok{};
     Result<std::optional<stage::Simulation>> next = options.next_scene();
     if (!next) return next.errors();
     if (!*next) return Ok{};

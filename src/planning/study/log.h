@@ -25,7 +25,7 @@ struct Event {
   bool operator==(const Event&) const = default;
 };
 
-/// A frame: how far the scene went on, seen from where.
+/// A frame: how far the scene went on, and from where it is seen then.
 struct Frame {
   std::int64_t time_us = 0;
   double step_s = 0.0;    ///< by which the scene advanced

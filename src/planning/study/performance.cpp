@@ -134,6 +134,11 @@ bool is_state_due(std::int64_t before_us, std::int64_t now_us) {
   return before_us / state_every_us != now_us / state_every_us;
 }
 
+void adapt_to(stage::Simulation& simulation, const Camera& eye) {
+  const glm::vec3 place = eye.position_in_world();
+  simulation.clock.adapt(simulation.scene, std::span(&place, 1));
+}
+
 Status check_scenes(const Study& study, const Registries& registries) {
   const auto& registry = registries.get<scene::NodeRegistry>();
   for (const Task& training : study.trainings)
@@ -172,13 +177,14 @@ Status Performance::open_design() {
 
 Status Performance::begin(const Part& part) {
   const std::filesystem::path& scene = scene_of(study_, part);
-  if (scene != open_ && (part.task || !simulation_)) {
+  if (!simulation_ || (scene != open_ && part.task)) {
     design_.reset(), simulation_ = nullptr;
     Result<stage::Simulation> opened = stage::open_simulation(registries_, scene, {});
     if (!opened) return opened.errors();
     const Result<stage::Simulation*> kept = keep_(*std::move(opened));
     if (!kept) return kept.errors();
     simulation_ = *kept, open_ = scene;
+    eye_.reset();
     if (Status status = open_design(); !status) return status;
   }
   return show_condition(*simulation_, study_, part);
@@ -186,7 +192,10 @@ Status Performance::begin(const Part& part) {
 
 Status Performance::apply(const Record& record) {
   if (const Frame* frame = std::get_if<Frame>(&record)) {
-    if (simulation_) simulation_->advance(frame->step_s, frame->eye.position_in_world());
+    if (!simulation_) return Ok{};
+    simulation_->advance(frame->step_s, eye_.value_or(frame->eye.position_in_world()));
+    adapt_to(*simulation_, frame->eye);
+    eye_ = frame->eye.position_in_world();
     return Ok{};
   }
   const Event& event = std::get<Event>(record);

@@ -17,6 +17,10 @@ std::string state_text(std::uint64_t state);
 /// Whether a frame's time is one after which the state is logged.
 bool is_state_due(std::int64_t before_us, std::int64_t now_us);
 
+/// Adapts a scene to the eye from which a frame shows it, as drawing does (people nearby are finer): part of
+/// its state.
+void adapt_to(stage::Simulation& simulation, const Camera& eye);
+
 /// Whether the study's scenes are scripts without errors and have the scenarios of its conditions. Opens no
 /// model.
 Status check_scenes(const Study& study, const Registries& registries);
@@ -55,6 +59,7 @@ class Performance {
   std::optional<stage::Simulation> kept_;
   stage::Simulation* simulation_ = nullptr;
   std::optional<design::Session> design_;
+  std::optional<glm::vec3> eye_;  ///< of the frame before: it is there while the scene goes on
 };
 
 /// The outcome of a replay.
