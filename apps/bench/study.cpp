@@ -12,6 +12,7 @@
 #include "base/test_data.h"
 #include "bench/parts.h"
 #include "planning/study/performance.h"
+#include "planning/study/statistics.h"
 #include "planning/study/test_study.h"
 #include "planning/study/xdf.h"
 
@@ -21,8 +22,8 @@ namespace {
 /// Inputs of somebody who works without a pause: places, moves, undoes, looks about.
 std::string synthetic_inputs(double seconds, std::uint64_t seed) {
   Random random(seed);
-  const std::array views{"plan", "street", "balcony"},
-      kinds{"bin", "bench_stone", "umbrella_blue", "table", "no_such_kind"};
+  const std::array views{"plan", "street", "balcony"};
+  const std::array kinds{"bin", "bench_stone", "umbrella_blue", "table", "no_such_kind"};
   std::string inputs;
   for (double at = 1.0; at < seconds; at += double(random.uniform(0.2f, 6.0f))) {
     const float x = random.uniform(-15.0f, 15.0f), y = random.uniform(-13.0f, 14.0f);
