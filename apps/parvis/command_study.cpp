@@ -104,7 +104,7 @@ Status show_study(const StudyArguments& arguments, study::Session& session, stud
   window.language = arguments.chosen_language();
   window.kept_pictures = kept_pictures();
   window.max_frames = arguments.max_frames;
-  window.always_holds_rate = true;
+  window.always_holds_rate = arguments.max_frames == 0;
   window.screenshot = arguments.screenshot;
   window.study = &session;
   window.next_scene = [&]() -> Result<std::optional<stage::Simulation>> {

@@ -188,7 +188,7 @@ std::string map_svg(const ReportInput& input, const std::vector<glm::dvec3>& poi
         const glm::dvec2 corner = at(low + cell * glm::dvec2(x, y + 1));
         svg += fmt::format(
             "<rect x='{:.1f}' y='{:.1f}' width='{:.2f}' height='{:.2f}' fill='{}' fill-opacity='{:.2f}'/>",
-            corner.x, corner.y, scale * cell, scale * cell, colour, 0.9 * std::sqrt(share));
+            corner.x, corner.y, scale * cell, scale * cell, colour, 0.9 * std::pow(share, 0.3));
       }
   const auto line = [&](const std::vector<glm::dvec2>& points_of_line, const char* style) {
     svg += "<polyline points='";
