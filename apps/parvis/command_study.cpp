@@ -104,6 +104,7 @@ Status show_study(const StudyArguments& arguments, study::Session& session, stud
   window.language = arguments.chosen_language();
   window.kept_pictures = kept_pictures();
   window.max_frames = arguments.max_frames;
+  if (window.max_frames > 0) window.sound = "off";
   window.always_holds_rate = arguments.max_frames == 0;
   window.screenshot = arguments.screenshot;
   window.study = &session;
