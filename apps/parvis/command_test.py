@@ -24,7 +24,7 @@ import wave
 import zlib
 
 PARVIS = None  # path of the program, from the command line
-SUBCOMMANDS = ["view", "render", "bake", "reference", "compare", "check", "format", "export", "city", "plan", "photomontage", "sun", "facade", "tree", "car", "noise", "sound", "soundserver", "study"]
+SUBCOMMANDS = ["view", "render", "bake", "reference", "compare", "check", "format", "export", "city", "plan", "photomontage", "sun", "facade", "tree", "car", "noise", "sound", "soundserver", "study", "share"]
 SIZE = ["--size", "64x48"]
 
 

@@ -30,10 +30,11 @@ void add_noise(CLI::App& app, Chosen& chosen);
 void add_sound(CLI::App& app, Chosen& chosen);
 void add_study(CLI::App& app, Chosen& chosen);
 void add_soundserver(CLI::App& app, Chosen& chosen);
+void add_share(CLI::App& app, Chosen& chosen);
 
 inline constexpr void (*command_table[])(CLI::App&, Chosen&) = {
     add_view,   add_render, add_bake,  add_reference,    add_compare, add_check,  add_format,
     add_export, add_city,   add_plan,  add_photomontage, add_sun,     add_facade, add_tree,
-    add_car,    add_noise,  add_sound, add_soundserver,  add_study};
+    add_car,    add_noise,  add_sound, add_soundserver,  add_study,   add_share};
 
 }  // namespace parvis

@@ -12,6 +12,7 @@
 #include "base/files.h"
 #include "base/image_io.h"
 #include "base/parallel.h"
+#include "base/reduction.h"
 #include "formats/gltf/gltf_chunk.h"
 
 namespace parvis::scene {
@@ -103,6 +104,22 @@ Image8 without_alpha(const Image8& image) {
   for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
     for (std::size_t c = 0; c < 3; ++c) colour.pixels[3 * i + c] = image.pixels[4 * i + c];
   return colour;
+}
+
+/// A picture whose longest side is `max_px` at most: colours are averaged as light, data as they are.
+Image8 no_larger(const Texture& texture, int max_px) {
+  const Image8& image = texture.image;
+  const int longest = std::max(image.width, image.height), shortest = std::min(image.width, image.height);
+  const int n = std::min((longest + max_px - 1) / max_px, shortest);
+  if (n <= 1) return image;
+  if (texture.is_srgb) return reduced(image, n);
+  ImageF data(image.width, image.height, image.channels);
+  std::copy(image.pixels.begin(), image.pixels.end(), data.pixels.begin());
+  const ImageF small = reduced(data, n);
+  Image8 bytes(small.width, small.height, small.channels);
+  std::transform(small.pixels.begin(), small.pixels.end(), bytes.pixels.begin(),
+                 [](float value) { return std::uint8_t(value + 0.5f); });
+  return bytes;
 }
 
 }  // namespace
@@ -264,6 +281,23 @@ Result<std::vector<PartialFile>> GltfMaterialWriter::write_pictures(const fs::pa
     if (written[i]) pictures.push_back(*std::move(written[i]));
   }
   if (!errors.empty()) return errors;
+  return pictures;
+}
+
+Result<std::vector<std::string>> GltfMaterialWriter::browser_pictures(int max_px, int min_px) const {
+  std::vector<Result<std::string>> encoded(textures_.size(), std::string());
+  parallel_for(textures_.size(), [&](std::size_t i) {
+    const Image8& image = textures_[i]->image;
+    if (std::max(image.width, image.height) <= min_px) return;
+    const Image8 small = no_larger(*textures_[i], max_px);
+    encoded[i] = encode_image(uses_alpha(small) ? small : without_alpha(small),
+                              names_[i] + (textures_[i]->is_srgb ? ".webp" : ".png"));
+  });
+  std::vector<std::string> pictures;
+  for (Result<std::string>& each : encoded) {
+    if (!each) return each.errors();
+    pictures.push_back(*std::move(each));
+  }
   return pictures;
 }
 

@@ -32,6 +32,11 @@ class GltfMaterialWriter {
   /// nobody.
   Result<std::vector<PartialFile>> write_pictures(const std::filesystem::path& file) const;
 
+  /// The pictures for browsers, in the order of the file's images, each side at most `max_px`: colours as
+  /// WebP, data as PNG, whose channels do not run into each other. Empty ones of those that are no larger
+  /// than `min_px`.
+  Result<std::vector<std::string>> browser_pictures(int max_px, int min_px = 0) const;
+
  private:
   int add(const Texture& texture);
   Json texture_info(int texture, const TextureMapping& mapping);

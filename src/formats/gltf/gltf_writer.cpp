@@ -11,6 +11,7 @@
 #include "formats/gltf/gltf_material_writer.h"
 #include "formats/gltf/gltf_mesh_writer.h"
 #include "formats/gltf/gltf_own_data.h"
+#include "formats/gltf/gltf_packing.h"
 #include "formats/gltf/gltf_transform.h"
 
 namespace parvis::scene {
@@ -51,9 +52,38 @@ std::vector<ModelNode> nodes_now(const Object& object) {
   return nodes;
 }
 
+void append_word(std::string& bytes, std::size_t value) {
+  const auto word = std::uint32_t(value);
+  bytes.append(reinterpret_cast<const char*>(&word), 4);
+}
+
+void append_chunk(std::string& bytes, const char* type, std::string_view data, char padding) {
+  const std::size_t padded = (data.size() + 3) / 4 * 4;
+  append_word(bytes, padded);
+  bytes.append(type, 4).append(data).append(padded - data.size(), padding);
+}
+
+/// The bytes of a .glb. Errors: they are more than one holds; `name` stands in them.
+Result<std::string> container_of(const Json& json, std::span<const std::uint8_t> data,
+                                 const std::string& name) {
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string_view binary(reinterpret_cast<const char*>(data.data()), data.size());
+  std::string chunks;
+  append_chunk(chunks, "JSON", text, ' ');
+  if (!binary.empty()) append_chunk(chunks, "BIN\0", binary, '\0');
+  const std::size_t size = 12 + chunks.size();
+  if (size > std::numeric_limits<std::uint32_t>::max())
+    return error("{}: a .glb holds 4 GB; this is {:.1f}: write it in parts", name, double(size) * 1e-9);
+  std::string bytes = "glTF";
+  append_word(bytes, 2);
+  append_word(bytes, size);
+  return bytes + chunks;
+}
+
 class Writer {
  public:
-  Writer() {
+  /// A writer of objects; `is_still`: their animations are left out.
+  explicit Writer(bool is_still = false) : is_still_(is_still) {
     nodes_.push_back({{"name", "z_up"}, {"matrix", gltf_matrix(glm::transpose(z_up_from_y_up()))}});
   }
 
@@ -96,6 +126,49 @@ class Writer {
   Status write(const fs::path& file) const {
     Result<std::vector<PartialFile>> pictures = materials_.write_pictures(file);
     if (!pictures) return pictures.errors();
+    return write_container(file, described(file), *pictures);
+  }
+
+  Result<PackedGltf> packed(int first_px, int max_px) const {
+    const Result<std::vector<std::string>> inside = materials_.browser_pictures(first_px);
+    const Result<std::vector<std::string>> sharper = materials_.browser_pictures(max_px, first_px);
+    if (!inside) return inside.errors();
+    if (!sharper) return sharper.errors();
+    Json json = described("place.glb");
+    std::vector<std::uint8_t> bytes = chunk_.bytes();
+    if (json.contains("meshes")) pack_meshes(json, bytes);
+    PackedGltf made;
+    bool has_webp = false;
+    for (std::size_t i = 0; i < inside->size(); ++i) {
+      bytes.resize((bytes.size() + 3) / 4 * 4);
+      const std::string& picture = (*inside)[i];
+      const bool is_webp = picture.starts_with("RIFF");
+      has_webp = has_webp || is_webp;
+      json["images"][i] = {{"bufferView", json["bufferViews"].size()},
+                           {"mimeType", is_webp ? "image/webp" : "image/png"}};
+      json["bufferViews"].push_back(
+          {{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", picture.size()}});
+      bytes.insert(bytes.end(), picture.begin(), picture.end());
+      if (is_webp) {
+        Json& texture = json["textures"][i];
+        texture["extensions"]["EXT_texture_webp"]["source"] = texture["source"];
+        texture.erase("source");
+      }
+      if (!(*sharper)[i].empty()) made.sharper.emplace_back(int(i), (*sharper)[i]);
+    }
+    if (has_webp)
+      for (const char* list : {"extensionsUsed", "extensionsRequired"})
+        json[list].push_back("EXT_texture_webp");
+    json["buffers"][0]["byteLength"] = bytes.size();
+    Result<std::string> container = container_of(json, bytes, "a packed .glb");
+    if (!container) return container.errors();
+    made.glb = *std::move(container);
+    return made;
+  }
+
+ private:
+  /// The JSON of the file, whose pictures lie beside it.
+  Json described(const fs::path& file) const {
     Json json{{"asset", {{"version", "2.0"}, {"generator", "Parvis"}}},
               {"scene", 0},
               {"scenes", {{{"nodes", {0}}}}},
@@ -107,10 +180,9 @@ class Writer {
     chunk_.describe(json);
     if (!extensions_.empty()) json["extensions"] = extensions_;
     for (const auto& [name, own] : extensions_.items()) json["extensionsUsed"].push_back(name);
-    return write_container(file, json, *pictures);
+    return json;
   }
 
- private:
   /// Data shared by objects of one model and paint.
   struct WrittenModel {
     int first_material;
@@ -129,7 +201,9 @@ class Writer {
     if (!meshes) return meshes.errors();
     return &models_
                 .emplace(std::pair(&model, &materials),
-                         WrittenModel{first_material, *std::move(meshes), write_keyframes(model, chunk_)})
+                         WrittenModel{
+                             first_material, *std::move(meshes),
+                             is_still_ ? std::vector<WrittenAnimation>() : write_keyframes(model, chunk_)})
                 .first->second;
   }
 
@@ -168,6 +242,7 @@ class Writer {
 
   Status write_container(const fs::path& file, const Json& json, std::vector<PartialFile>& pictures) const;
 
+  bool is_still_;
   GltfMaterialWriter materials_;
   GltfChunk chunk_;
   std::map<std::pair<const Model*, const std::vector<Material>*>, WrittenModel> models_;
@@ -175,36 +250,15 @@ class Writer {
        cameras_ = Json::array(), extensions_ = Json::object();
 };
 
-void append_word(std::string& bytes, std::size_t value) {
-  const auto word = std::uint32_t(value);
-  bytes.append(reinterpret_cast<const char*>(&word), 4);
-}
-
-void append_chunk(std::string& bytes, const char* type, std::string_view data, char padding) {
-  const std::size_t padded = (data.size() + 3) / 4 * 4;
-  append_word(bytes, padded);
-  bytes.append(type, 4).append(data).append(padded - data.size(), padding);
-}
-
 /// Pictures and file take their places together, when all of them are on the disk: none does where one
 /// cannot be written.
 Status Writer::write_container(const fs::path& file, const Json& json,
                                std::vector<PartialFile>& pictures) const {
-  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  const std::string_view binary(reinterpret_cast<const char*>(chunk_.bytes().data()), chunk_.bytes().size());
-  std::string chunks;
-  append_chunk(chunks, "JSON", text, ' ');
-  if (!binary.empty()) append_chunk(chunks, "BIN\0", binary, '\0');
-  const std::size_t size = 12 + chunks.size();
-  if (size > std::numeric_limits<std::uint32_t>::max())
-    return error("{}: a .glb holds 4 GB; this is {:.1f}: write it in parts", file.string(),
-                 double(size) * 1e-9);
-  std::string bytes = "glTF";
-  append_word(bytes, 2);
-  append_word(bytes, size);
+  const Result<std::string> bytes = container_of(json, chunk_.bytes(), file.string());
+  if (!bytes) return bytes.errors();
   Result<PartialFile> container = PartialFile::create(file);
   if (!container) return container.errors();
-  if (Status status = container->write(bytes + chunks); !status) return status;
+  if (Status status = container->write(*bytes); !status) return status;
   if (Status status = container->sync(); !status) return status;
   for (const PartialFile& picture : pictures)
     if (Status status = picture.sync(); !status) return status;
@@ -235,6 +289,13 @@ Status write_gltf(const fs::path& file, std::span<const Object* const> objects,
     if (Status status = writer.add(*object); !status) return status;
   for (const NamedCamera& camera : cameras) writer.add(camera);
   return writer.write(file);
+}
+
+Result<PackedGltf> packed_gltf(std::span<const Object* const> objects, int first_px, int max_px) {
+  Writer writer(true);
+  for (const Object* object : objects)
+    if (Status status = writer.add(*object); !status) return status.errors();
+  return writer.packed(first_px, max_px);
 }
 
 }  // namespace parvis::scene
