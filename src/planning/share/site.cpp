@@ -261,7 +261,7 @@ class Writer {
     const int side = texture_px();
     if (side < options_.max_texture_px)
       fmt::print(stderr,
-                 "warning: the textures are larger than a page may hold: reduced to {} pixels a side\n",
+                 "warning: the textures are larger than a page may hold: reduced to a side of {} pixels\n",
                  side);
     Result<scene::PackedGltf> packed = scene::packed_gltf(objects, std::min(first_texture_px, side), side);
     if (!packed) return packed.errors();

@@ -21,7 +21,7 @@ class LightBytes {
  public:
   /// Appends bytes and returns their offset, a multiple of 4.
   std::size_t add(std::string_view piece);
-  const std::string& bytes() const { return bytes_; }
+  const std::string& bytes() const { return bytes_; }  ///< all that were appended
 
  private:
   std::string bytes_;
