@@ -122,6 +122,7 @@ std::uint64_t state_of(const stage::Simulation& simulation, const design::Sessio
     hash.add(object.pose);
     hash.add(object.is_visible);
   }
+  for (const scene::NamedCamera& each : simulation.scene.cameras) hash.add(each.camera.world_from_camera);
   hash.add(simulation.clock.time_s());
   hash.add_text(simulation.live().scenario());
   hash.add_text(design.script());

@@ -24,7 +24,7 @@ Result<std::array<double, sus_items>> sus_contributions(std::span<const SusAnswe
     return error("{} answers; the System Usability Scale has {}", answers.size(), sus_items);
   std::array<double, sus_items> contributions{};
   for (std::size_t i = 0; i < sus_items; ++i) {
-    if (!answers[i]) return error("item {} is missing: there is no score", i + 1);
+    if (!answers[i]) return error("item {} is missing", i + 1);
     const double answer = *answers[i];
     if (!(answer >= 1.0 && answer <= 5.0))
       return error("item {} has the answer {:g}; expected 1 to 5", i + 1, answer);

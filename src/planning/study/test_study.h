@@ -14,7 +14,7 @@ inline constexpr const char* test_scene = R"(
 camera(name=street, position="0 -10 1.7", target="0 0 1")
 camera(name=plan, position="0 0 100", heading_deg=0, pitch_deg=-90, parallel=40)
 design(name=furniture) { placed(name=walker, kind=bollard, position="0 8 0") }
-path(name=walk, target=street, mode=loop) { key(time_s=0, position="0 -10 1.7") key(time_s=4, position="3 -10 1.7") }
+path(name=walk, of=street, loop=1) { key(time_s=0, position="0 -10 1.7") key(time_s=4, position="3 -10 1.7") }
 scenario(name=low) { }
 scenario(name=high) { override(of=furniture, visible=0) }
 )";
