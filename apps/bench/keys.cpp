@@ -201,7 +201,7 @@ constexpr Key keys[]{
     // sound
     {"sources_realtime", "sources", minimum(5000.0), "moving sources of all kinds as they reach the listener, premixed into 24 clusters with OpenAL's HRTF, in a quarter of a core", {{"sources_realtime_openal_alone"}}},
     {"sources_over_openal_alone", "", minimum(3.0), "the same over sources of OpenAL Soft alone in the same time", {{"sources_over_openal_alone_unclustered"}}},
-    {"level_error_db_per_band", "dB", maximum(1.5), "2,000 steady sources at a microphone, the worst octave, against the sum of all", {{"level_error_db_per_band_of_deep_masking"}}},
+    {"level_error_db_per_band", "dB", maximum(1.5), "2,000 steady sources in clusters, stereo, the worst octave of both channels together, against the sum of all", {{"level_error_db_per_band_of_deep_masking"}}},
     {"direction_error_deg", "degrees", maximum(5.0), "2,000 moving sources against their clusters, weighted by energy, mean of 1 s (5 s)", {{"direction_error_deg_of_two_clusters"}}},
     {"cluster_switch_click_db", "dB", maximum(-50.0), "300 low sounds that move: the loudest 10 ms above 1.5 kHz against the mean of the mix", {{"cluster_switch_click_db_without_crossfades"}}},
     {"cluster_switch_click_db_of_the_unclustered_mix", "dB", {}, "the same with a cluster for each sound"},

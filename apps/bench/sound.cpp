@@ -99,19 +99,21 @@ void measure_realtime(const BenchSetup& setup, Report& report) {
   report.add("sources_over_openal_alone_unclustered", double(some) * quarter / unclustered / alone);
 }
 
-/// Sum of all sounds by octave against what a microphone hears of clusters.
+/// Sum of all sounds by octave against both channels of clusters in stereo.
 double level_error_db(std::span<const sound::HeardSound> sounds, const sound::MixerLimits& limits) {
-  sound::Mixer mixer(sound::Output::microphone, limits);
+  sound::Mixer mixer(sound::Output::stereo, limits);
   std::vector<float> left(BandNoise::length, 0.0f), right(left);
   mixer.mix(sounds, std::span(left).first(960), std::span(right).first(960));
-  std::ranges::fill(left, 0.0f);
+  std::ranges::fill(left, 0.0f), std::ranges::fill(right, 0.0f);
   mixer.mix(sounds, left, right);
   Octaves sum{};
   for (const sound::HeardSound& it : sounds)
     for (std::size_t band = 0; band < octaves; ++band) sum[band] += it.energy[band];
   double worst_db = 0.0;
   for (std::size_t band = 0; band < octaves; ++band)
-    worst_db = std::max(worst_db, std::abs(propagation::level(sound::band_energy(left, band) / sum[band])));
+    worst_db = std::max(worst_db,
+                        std::abs(propagation::level(
+                            (sound::band_energy(left, band) + sound::band_energy(right, band)) / sum[band])));
   return worst_db;
 }
 
@@ -264,7 +266,7 @@ void measure_listening(Report& report) {
   const scene::Scene scene = street_with_house();
   noise::NoiseOptions options;
   options.favourable_fraction = 0.0, options.has_facades = false, options.paths.directions = 72;
-  options.area = glm::dvec4(-50, 30, 50, 50), options.cell_m = 20.0;
+  options.area = glm::dvec4(-50, 30, 50, 70), options.cell_m = 20.0;
   const noise::NoiseMap map = must(noise::compute_noise(scene, options));
   sound::Listening listening(scene, sound::Output::microphone);
   std::vector<sound::Emitter> emitters;

@@ -33,7 +33,10 @@ Octaves amplitudes_of(const Octaves& energies) {
 }  // namespace
 
 Mixer::Mixer(Output output, const MixerLimits& limits)
-    : spatialiser_(output, limits.clusters), limits_(limits), clusters_(limits.clusters) {
+    : limits_(limits),
+      // A microphone has no directions: in one cluster the energies of steady noise add up exactly.
+      clusters_(output == Output::microphone ? 1 : limits.clusters),
+      spatialiser_(output, clusters_.size()) {
   for (std::size_t i = 0; i < clusters_.size(); ++i)
     clusters_[i].place = double(i) * double(BandNoise::length) / double(clusters_.size());
 }

@@ -74,10 +74,10 @@ class Mixer {
   void choose_clusters(std::span<const HeardSound> sounds);
   void play_events(std::span<const HeardSound> sounds);
 
-  Spatialiser spatialiser_;
   MixerLimits limits_;
   MixCounts counts_;
   std::vector<Cluster> clusters_;
+  Spatialiser spatialiser_;
   std::vector<std::size_t> order_, cluster_of_;  // of the sounds of this moment, loudest first; by sound
   std::vector<std::pair<std::uint64_t, Playing>> playing_;
   std::vector<std::vector<float>> signals_;
