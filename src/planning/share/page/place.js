@@ -21,7 +21,7 @@ function shaded(from, geometry, light) {
   define('HAS_OPENNESS', hasColours && isOpaque), define('HAS_NORMAL_MAP', from.normalMap);
   define('HAS_SURFACE_MAP', from.roughnessMap), define('HAS_OCCLUSION_MAP', from.aoMap), define('HAS_EMISSION_MAP', from.emissiveMap);
   define('HAS_COAT', from.clearcoat > 0), define('HAS_BACKS', from.side === THREE.DoubleSide), define('IS_GLASS', from.transmission > 0);
-  define('HAS_SECOND_UV', geometry.hasAttribute('uv1'));
+  define('HAS_SECOND_UV', geometry.hasAttribute('uv1')), define('HAS_RELIEF', own.relief_m > 0 && from.map && from.normalMap);
   for (const [name, map] of [['BASE_UV', from.map], ['NORMAL_UV', from.normalMap], ['SURFACE_UV', from.roughnessMap],
                              ['OCCLUSION_UV', from.aoMap], ['EMISSION_UV', from.emissiveMap]])
     defines[name] = map?.channel === 1 ? 'uv_2' : 'uv_1';
@@ -35,7 +35,7 @@ function shaded(from, geometry, light) {
     emission: value(new THREE.Vector3(from.emissive.r, from.emissive.g, from.emissive.b).multiplyScalar(from.emissiveIntensity)),
     layers: value(new THREE.Vector4(from.metalness, from.roughness, from.clearcoat ?? 0, from.clearcoatRoughness ?? 0.03)),
     translucency: value(own.translucency ?? 0), normal_scale: value(from.normalScale?.x ?? 1), occlusion_strength: value(from.aoMapIntensity ?? 1),
-    alpha_cutoff: value(from.alphaTest), ior: value(from.ior ?? 1.5),
+    alpha_cutoff: value(from.alphaTest), ior: value(from.ior ?? 1.5), relief_m: value(own.relief_m ?? 0),
   };
   const material = new THREE.RawShaderMaterial({
     glslVersion: THREE.GLSL3, vertexShader: surfaceVertex, fragmentShader: surfaceFragment, defines, uniforms, side: from.side,

@@ -4,6 +4,7 @@ import bouncedLight from '../../../graphics/shading/bounced_light.glsl';
 import glass from '../../../graphics/shading/glass.glsl';
 import lighting from '../../../graphics/shading/lighting.glsl';
 import realism from '../../../graphics/shading/realism.glsl';
+import relief from '../../../graphics/shading/relief.glsl';
 import shadow from '../../../graphics/shading/shadow.glsl';
 import shadowFilter from '../../../graphics/shading/shadow_filter.glsl';
 import sky from '../../../graphics/shading/sky.glsl';
@@ -21,7 +22,7 @@ const head = 'precision highp float;\nprecision highp int;\n#define GLSL_FUNCTIO
 const shared = [sky, beyondLand, surface, realism, srgb, toneCurve, shadow, frame].join('\n');
 
 export const surfaceFragment =
-    [head, shared, skyVisibility, bouncedLight, glass, lighting, textureFrame, shadowFilter, lookups, surfaceMain].join('\n');
+    [head, shared, skyVisibility, bouncedLight, glass, lighting, textureFrame, shadowFilter, lookups, surfaceMain.replace('GLSL_OF_RELIEF\n', `${relief}\n`)].join('\n');
 export const skyFragment = [head, shared, skyMain].join('\n');
 
 export const surfaceVertex = `precision highp float;

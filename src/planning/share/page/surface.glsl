@@ -1,13 +1,14 @@
 // A surface in the light of a moment: Parvis's own shading (graphics/shading), with what a page knows of sky
 // and sun. Defines: HAS_MAP, HAS_HOLES, HAS_COLOURS, HAS_OPENNESS, HAS_NORMAL_MAP, HAS_SURFACE_MAP,
-// HAS_OCCLUSION_MAP, HAS_EMISSION_MAP, HAS_COAT, HAS_BACKS, IS_GLASS.
+// HAS_OCCLUSION_MAP, HAS_EMISSION_MAP, HAS_COAT, HAS_BACKS, IS_GLASS,
+// HAS_RELIEF: all maps lie as the base colour does.
 
 uniform vec3 viewer;
 uniform mat3 base_from_uv, normal_from_uv, surface_from_uv, occlusion_from_uv, emission_from_uv;
 uniform vec4 base_colour;
 uniform vec3 emission;
 uniform vec4 layers;  // metallic, roughness, clear coat, its roughness
-uniform float translucency, normal_scale, occlusion_strength, alpha_cutoff, ior;
+uniform float translucency, normal_scale, occlusion_strength, alpha_cutoff, ior, relief_m;
 uniform sampler2D base_map, normal_map, surface_map, occlusion_map, emission_map;
 
 in vec3 at;
@@ -19,6 +20,29 @@ out vec4 colour;
 
 vec2 moved(mat3 from_uv, vec2 at_uv) { return (from_uv * vec3(at_uv, 1.0)).xy; }
 
+#ifdef HAS_RELIEF
+float relief_level;
+
+float relief_depth(vec2 at_uv) { return 1.0 - textureLod(normal_map, at_uv, relief_level).a; }
+GLSL_OF_RELIEF
+
+// Moves `at_uv` to where the view meets the relief; `sun` loses what the edge of the opening keeps out.
+vec2 through_relief(vec2 at_uv, vec3 to_viewer, vec3 normal, vec2 along_x, vec2 along_y, inout float sun) {
+  TextureFrame frame = TextureFrame(dFdx(at), dFdy(at), along_x, along_y);
+  float depth_m = relief_m * relief_share(min(length(frame.step_1), length(frame.step_2)), relief_m);
+  if (depth_m <= 0.0) return at_uv;
+  vec2 size = vec2(textureSize(normal_map, 0));
+  relief_level = 0.5 * log2(max(abs(along_x.x * along_y.y - along_x.y * along_y.x) * size.x * size.y, 1e-8));
+  vec3 hit = relief_hit(at_uv, uv_through_relief(frame, normal, -to_viewer, depth_m));
+  if (dot(normal, to_sun) > 0.0 && hit.z > 0.0)
+    sun *= relief_light(hit, uv_through_relief(frame, normal, to_sun, depth_m));
+  return hit.xy;
+}
+#define looked_up(map, from_uv, at_uv) textureGrad(map, base_uv, along_x, along_y)
+#else
+#define looked_up(map, from_uv, at_uv) texture(map, moved(from_uv, at_uv))
+#endif
+
 void main() {
   vec3 to_viewer = viewer - at;
   float distance_m = length(to_viewer);
@@ -28,9 +52,14 @@ void main() {
   if (!gl_FrontFacing) geometric = -geometric;
 #endif
   vec2 base_uv = moved(base_from_uv, BASE_UV);
+  float relief_sun = 1.0;
+#ifdef HAS_RELIEF
+  vec2 along_x = dFdx(base_uv), along_y = dFdy(base_uv);
+  base_uv = through_relief(base_uv, to_viewer, geometric, along_x, along_y, relief_sun);
+#endif
   vec4 base = vec4(1.0);
 #ifdef HAS_MAP
-  base = texture(base_map, base_uv);
+  base = looked_up(base_map, base_from_uv, BASE_UV);
   if (frame_realism.y < 1.0)
     base.rgb = mix(textureLod(base_map, vec2(0.5), 16.0).rgb, base.rgb, frame_realism.y);
 #endif
@@ -48,10 +77,10 @@ void main() {
 #endif
   vec3 detail = vec3(1.0);
 #ifdef HAS_SURFACE_MAP
-  detail.gb = texture(surface_map, moved(surface_from_uv, SURFACE_UV)).gb;
+  detail.gb = looked_up(surface_map, surface_from_uv, SURFACE_UV).gb;
 #endif
 #ifdef HAS_OCCLUSION_MAP
-  detail.r = mix(1.0, texture(occlusion_map, moved(occlusion_from_uv, OCCLUSION_UV)).r, occlusion_strength);
+  detail.r = mix(1.0, looked_up(occlusion_map, occlusion_from_uv, OCCLUSION_UV).r, occlusion_strength);
 #endif
 #ifdef HAS_OPENNESS
   detail.r *= vertex_colour.a;
@@ -60,11 +89,11 @@ void main() {
 #ifdef HAS_NORMAL_MAP
   vec2 normal_uv = moved(normal_from_uv, NORMAL_UV);
   normal = mapped_normal(TextureFrame(dFdx(at), dFdy(at), dFdx(normal_uv), dFdy(normal_uv)), geometric,
-                         texture(normal_map, normal_uv).xyz, normal_scale);
+                         looked_up(normal_map, normal_from_uv, NORMAL_UV).xyz, normal_scale);
 #endif
   vec3 glow = emission;
 #ifdef HAS_EMISSION_MAP
-  glow *= texture(emission_map, moved(emission_from_uv, EMISSION_UV)).rgb;
+  glow *= looked_up(emission_map, emission_from_uv, EMISSION_UV).rgb;
 #endif
   Surface s = assembled_surface(normal, base.rgb, detail, glow, layers, translucency);
 #ifdef IS_GLASS
@@ -82,7 +111,7 @@ void main() {
   light.haze_radiance = haze_radiance;
   light.haze_per_m = haze_per_m;
   vec4 cell = visibility_cell(at, geometric);
-  float sun = sun_visibility(shadow_maps(), at, geometric, to_sun);
+  float sun = relief_sun * sun_visibility(shadow_maps(), at, geometric, to_sun);
   vec3 base_reflection = surroundings(cell, bounced, reflect(-to_viewer, s.normal), s.roughness);
   vec3 coat_reflection = vec3(0.0);
 #ifdef HAS_COAT
