@@ -95,6 +95,7 @@ TEST(DayLightTime, TwilightOfTheUsNavalObservatory) {
     EXPECT_LT(minutes_off(when, &DaylightHours::set_h, set_hour + set_minute / 60.0), 1.1) << line;
   }
   EXPECT_GT(rows, 100);
+  RecordProperty("rows", rows);
   EXPECT_GT(days_without_night, 0);
 }
 

@@ -204,7 +204,9 @@ TEST(PublishedCases, EveryOctaveWithinATenthOfADecibel) {
   const auto results = compute_cases(*folder);
   EXPECT_GT(compute_cases(*folder, 5.0).front().total_db, 0.1) << "in warmer air";
   EXPECT_EQ(results.size(), 28u);
+  double largest_db = 0.0;
   for (const CaseResult& result : results) {
+    largest_db = std::max({largest_db, result.total_db, result.without_lateral_db});
     // Octagons whose corners are printed to half a metre: TC12, TC14.
     const bool is_coarse = result.id == "TC12" || result.id == "TC14";
     EXPECT_LE(std::max(result.total_db, result.without_lateral_db), is_coarse ? 0.1 : 0.02)
@@ -215,6 +217,8 @@ TEST(PublishedCases, EveryOctaveWithinATenthOfADecibel) {
     for (const char* id : {"TC08", "TC09", "TC10", "TC12", "TC13", "TC21", "TC25"})
       EXPECT_TRUE(result.id != id || result.finds_corners) << result.id;
   }
+  RecordProperty("cases", int(results.size()));
+  RecordProperty("largest_difference_db", fmt::format("{:.3f}", largest_db));
 }
 
 TEST(PublishedCases, AirAndRoads) {
@@ -224,6 +228,7 @@ TEST(PublishedCases, AirAndRoads) {
   EXPECT_EQ(air.all, 48);
   EXPECT_EQ(air.agree, 48) << air.differing;
   EXPECT_EQ(air.rounded, 47) << air.differing;
+  RecordProperty("air_values", fmt::format("{} of {}", air.agree, air.all));
   for (const char* key : {"checks", "further_checks"}) {
     const Matches road = compare_road_checks(*folder, key);
     EXPECT_EQ(road.agree, road.all) << road.differing;
