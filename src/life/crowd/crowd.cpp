@@ -111,6 +111,13 @@ glm::vec2 Crowd::target_of(std::size_t person) const {
   return walls_.crosses(corner, wider, it.way[it.corner].z) ? corner : wider;
 }
 
+glm::vec2 Crowd::direction(std::size_t person) const {
+  const PersonOnTheWay& it = people_[person];
+  return it.destination < 0 || it.has_arrived || it.waits_s > 0.0f
+             ? glm::vec2(0.0f)
+             : unit(target_of(person) - walkers_.position[person]);
+}
+
 void Crowd::follow_way(std::size_t person) {
   PersonOnTheWay& it = people_[person];
   const glm::vec2 here = walkers_.position[person];
@@ -154,7 +161,7 @@ void Crowd::step(float step_s, std::span<const MovingBody> bodies) {
     PersonOnTheWay& it = people_[i];
     it.waits_s = std::max(it.waits_s - step_s, 0.0f);
     walkers_.aim[i] = glm::vec2(0.0f);
-    if (it.destination < 0 || it.has_arrived || it.waits_s > 0.0f) continue;
+    if (it.destination < 0 || it.has_arrived || it.waits_s > 0.0f || it.is_held) continue;
     const Destination& to = destinations_[std::size_t(it.destination)];
     const glm::vec2 here = walkers_.position[i];
     if (glm::distance(nearest_on_segment(to.a, to.b, here), here) < to.reach_m) {

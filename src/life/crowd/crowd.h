@@ -26,6 +26,7 @@ struct PersonOnTheWay {
   float waits_s = 0.0f;      ///< until the person sets off
   float slope = 0.0f;        ///< of the ground in the walking direction
   bool has_arrived = false;
+  bool is_held = false;     ///< stands for this step, at a kerb say
   float own_speed = 1.34f;  ///< on level ground with nobody in the way, m/s
   float lean_m = 0.0f;      ///< by which corners are passed wider
   Way way = {};
@@ -50,6 +51,8 @@ class Crowd {
   /// and goes there, too: 1.2 people per second and metre of its line pass. The present one is left where
   /// another one saves a fourth.
   int quickest(std::size_t person, std::span<const int> destinations) const;
+  /// Holds a person where they stand, or lets them walk.
+  void hold(std::size_t person, bool is_held) { people_[person].is_held = is_held; }
   /// Removes a person; the last one takes the index.
   void remove(std::size_t person);
 
@@ -58,6 +61,9 @@ class Crowd {
 
   /// The ground has changed between `low` and `high` (in plan): whose way it crosses finds another one.
   void change_ground(const WalkingGround& ground, glm::vec2 low, glm::vec2 high);
+
+  /// The direction in which a person wants to walk on; zero for who has no way.
+  glm::vec2 direction(std::size_t person) const;
 
   std::size_t size() const { return walkers_.size(); }                            ///< people
   const Walkers& walkers() const { return walkers_; }                             ///< where they are

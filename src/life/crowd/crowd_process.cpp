@@ -22,7 +22,9 @@ constexpr float mean_speed = 1.34f, speed_deviation = 0.26f, min_speed = 0.6f,
 constexpr float longest_rest_s = 12.0f,
                 resting = 0.35f;           // the fraction of arrivals after which somebody rests
 constexpr float max_people_per_m2 = 1.0f;  // Weidmann: beyond it nobody walks as they like
-constexpr float turn_rate = 5.0f;          // radians per second
+constexpr float seen_from_m = 2.0f, step_ahead_m = 0.9f;  // of crossings, before their edge
+constexpr float vehicle_height_m = 2.5f;
+constexpr float turn_rate = 5.0f;  // radians per second
 constexpr float shoulders_m = 0.21f, shoulder_range_m = 0.03f;
 
 /// A normal deviate by twelve uniform ones: bounded, and the same on every machine.
@@ -151,6 +153,8 @@ void CrowdProcess::begin(scene::Scene& scene, action::SharedByProcesses&) {
     demand.people = room;
   }
   heights_ = GroundHeights(ground);
+  streets_ = std::as_const(scene).data<scene::SharedStreets>().now;
+  if (streets_) streets_->has_people = true;
   models_ = demand.models;
   crowd_.emplace(*std::move(mesh));
   is_visible_ = demand.is_visible;
@@ -187,6 +191,37 @@ void CrowdProcess::add_objects(scene::Scene& scene, bool is_visible) {
   }
 }
 
+/// People stop at the kerb of a crossing that a vehicle takes, and drivers see who walks there or waits.
+void CrowdProcess::cross_streets() {
+  if (!streets_) return;
+  vehicles_.clear();
+  for (const scene::StreetTraffic::Vehicle& vehicle : streets_->vehicles) {
+    const glm::vec2 half =
+        glm::normalize(vehicle.front - vehicle.rear + glm::vec2(1e-6f)) * vehicle.half_width_m;
+    vehicles_.push_back({vehicle.rear + half, vehicle.front - half, vehicle.half_width_m, vehicle.velocity,
+                         vehicle.ground_m - vehicle_height_m, vehicle.ground_m + vehicle_height_m});
+  }
+  std::ranges::fill(streets_->people, std::uint8_t(0));
+  const Walkers& walkers = crowd_->walkers();
+  for (std::size_t p = 0; p < crowd_->size(); ++p) {
+    const glm::vec2 here = walkers.position[p];
+    crowd_->hold(p, false);
+    for (std::size_t c = 0; c < streets_->crossings.size(); ++c) {
+      const scene::StreetCrossing& crossing = streets_->crossings[c];
+      if (!crossing.contains(here, seen_from_m)) continue;
+      const bool is_on = crossing.contains(here);
+      const bool steps_on = !is_on && crossing.contains(here + step_ahead_m * crowd_->direction(p));
+      if (is_on || steps_on) streets_->people[c] = 1;
+      if (steps_on && streets_->taken[c] != 0) crowd_->hold(p, true);
+    }
+    const glm::vec2 next = here + step_ahead_m * crowd_->direction(p);
+    const auto is_entered = [&](const scene::StreetCrossing& strip) {
+      return strip.contains(next) && !strip.contains(here);
+    };
+    if (std::ranges::any_of(streets_->kept_clear, is_entered)) crowd_->hold(p, true);
+  }
+}
+
 void CrowdProcess::walk() {
   for (std::size_t p = 0; p < shown_.size(); ++p) {
     if (!crowd_->people()[p].has_arrived) continue;
@@ -194,7 +229,8 @@ void CrowdProcess::walk() {
     crowd_->send(p, new_destination(random),
                  random.chance(resting) ? random.uniform(1.0f, longest_rest_s) : 0.0f);
   }
-  crowd_->step(crowd_step_s);
+  cross_streets();
+  crowd_->step(crowd_step_s, vehicles_);
   const Walkers& walkers = crowd_->walkers();
   for (std::size_t p = 0; p < shown_.size(); ++p) {
     Shown& it = shown_[p];

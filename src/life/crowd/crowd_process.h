@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "land/roads/street_crossings.h"
 #include "life/crowd/crowd.h"
 #include "life/crowd/demand.h"
 #include "life/crowd/scene_ground.h"
@@ -35,6 +36,8 @@ class CrowdProcess final : public action::Process {
 
   /// The crowd after `begin`; null where nobody walks.
   const Crowd* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
+  /// The scene's streets as people see them; null where there is no traffic.
+  const scene::StreetTraffic* streets() const { return streets_.get(); }
   /// Generated people; nothing where models of the user's walk.
   const ShownPeople* generated() const { return generated_ ? &*generated_ : nullptr; }
 
@@ -50,6 +53,7 @@ class CrowdProcess final : public action::Process {
 
   void populate(const CrowdDemand& demand, const scene::RoadGraph& roads);
   void walk();
+  void cross_streets();
   void add_objects(scene::Scene& scene, bool is_visible);
   void follow_visibility(scene::Scene& scene);
   int new_destination(Random& random);
@@ -61,6 +65,8 @@ class CrowdProcess final : public action::Process {
   std::optional<ShownPeople> generated_;     ///< where no model says how people look
   std::vector<people::WalkingBody> bodies_;  ///< of generated people, in their order
   std::vector<Random> randoms_;
+  std::shared_ptr<scene::StreetTraffic> streets_;  ///< null: no traffic
+  std::vector<MovingBody> vehicles_;
   long steps_ = 0;
   bool is_visible_ = true;
 };

@@ -229,6 +229,40 @@ TEST(NavMesh, PavementsArePreferredToRoads) {
   EXPECT_TRUE(mesh->way({2, 5, 0}, {2, 15, 0})) << "and crossed where there is nothing better";
 }
 
+TEST(NavMesh, RoadsAreCrossedAtCrossingsAlone) {
+  TestGround ground;
+  ground.rectangle({0, 0}, {60, 20});
+  ground.roads = {{{0, 10, 0}, {60, 10, 0}, 8.0f}};
+  ground.crossings = {{{50, 5, 0}, {50, 15, 0}, 4.0f}};
+  const Result<NavMesh> mesh = NavMesh::create(ground);
+  ASSERT_TRUE(mesh);
+  const std::optional<Way> way = mesh->way({2, 3, 0}, {2, 17, 0});
+  ASSERT_TRUE(way);
+  for (std::size_t i = 0; i + 1 < way->size(); ++i) {  // where the way passes the middle of the road
+    const glm::vec3 a = (*way)[i], b = (*way)[i + 1];
+    if ((a.y - 10.0f) * (b.y - 10.0f) < 0.0f) {
+      EXPECT_NEAR(glm::mix(a.x, b.x, (10.0f - a.y) / (b.y - a.y)), 50.0f, 2.0f);
+    }
+  }
+  EXPECT_FALSE(mesh->nearest({20, 10, 0}, 3.0f)) << "nobody stands on the road";
+  EXPECT_TRUE(mesh->nearest({50, 10, 0}, 0.1f));
+  EXPECT_NEAR(mesh->area_m2(), 2.0f * 59.5f * 5.5f, 30.0f) << "nor stays on a crossing";
+}
+
+TEST(Crowd, WhoIsHeldStands) {
+  TestGround ground;
+  ground.rectangle({0, 0}, {20, 4});
+  Crowd crowd = crowd_on(ground);
+  ASSERT_TRUE(crowd.add({2, 2, 0}, crowd.add(Destination{{18, 2, 0}, {18, 2, 0}}), 1.33f, radius_m));
+  EXPECT_NEAR(crowd.direction(0).x, 1.0f, 0.05f);
+  crowd.hold(0, true);
+  for (int s = 0; s < 20; ++s) crowd.step(step_s);
+  EXPECT_NEAR(crowd.walkers().position[0].x, 2.0f, 0.01f);
+  crowd.hold(0, false);
+  for (int s = 0; s < 20; ++s) crowd.step(step_s);
+  EXPECT_GT(crowd.walkers().position[0].x, 3.5f);
+}
+
 TEST(NavMesh, PlacesLieOutsideOfClosedHouses) {
   TestGround ground;
   ground.rectangle({0, 0}, {40, 40});

@@ -124,6 +124,30 @@ TEST_F(GeneratedPeople, OfWhomThereAreManyShareTheirMeshes) {
   EXPECT_LE(near, std::size_t(ShownPeople::max_looks));
 }
 
+TEST_F(GeneratedPeople, DoNotStepOntoGroundThatATramCoversNext) {
+  const scene::StreetCrossing track{{-15, 0, 0}, {15, 0, 0}, 1.6f};
+  const auto streets = std::make_shared<scene::StreetTraffic>();
+  scene_.data<scene::SharedStreets>().now = streets;
+  begin(12);
+  const auto stepped_on = [&](int seconds) {
+    std::vector<bool> was_on(12, true);
+    int count = 0;
+    for (int s = 0; s < 10 * seconds; ++s) {
+      advance(6);
+      for (std::size_t p = 0; p < 12; ++p) {
+        constexpr float pushed_m = 0.3f;
+        const bool is_on = track.contains(process_.crowd()->walkers().position[p], -pushed_m);
+        count += is_on && !was_on[p] ? 1 : 0;
+        was_on[p] = is_on || track.contains(process_.crowd()->walkers().position[p]);
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(stepped_on(30), 3) << "without a tram they walk over its track";
+  streets->kept_clear = {track};
+  EXPECT_EQ(stepped_on(60), 0);
+}
+
 TEST_F(GeneratedPeople, WithoutGroundAreMissedWithAMessage) {
   CrowdDemand demand;
   demand.people = 5;

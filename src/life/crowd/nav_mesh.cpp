@@ -60,9 +60,10 @@ unsigned char area_of(const WalkingGround& ground, std::size_t triangle, float m
   return RC_NULL_AREA;
 }
 
-/// Marks the ground of roads: quads along their middle lines, a little longer than they are.
-void mark_roads(rcContext& context, std::span<const RoadStrip> roads, rcCompactHeightfield& compact) {
-  constexpr float above_m = 1.0f, longer_m = 0.3f;
+/// Marks the ground of strips: quads along their middle lines, a little longer than they are.
+void mark_strips(rcContext& context, std::span<const RoadStrip> roads, unsigned char area, float longer_m,
+                 rcCompactHeightfield& compact) {
+  constexpr float above_m = 1.0f;
   for (const RoadStrip& road : roads) {
     const glm::vec2 along(road.b - road.a);
     const float length = glm::length(along);
@@ -75,8 +76,17 @@ void mark_roads(rcContext& context, std::span<const RoadStrip> roads, rcCompactH
     for (const glm::vec2 p : {a - ahead - side, b + ahead - side, b + ahead + side, a - ahead + side})
       for (const float v : to_recast({p, 0.0f})) corners[at++] = v;
     rcMarkConvexPolyArea(&context, corners.data(), 4, std::min(road.a.z, road.b.z) - above_m,
-                         std::max(road.a.z, road.b.z) + above_m, road_area, compact);
+                         std::max(road.a.z, road.b.z) + above_m, area, compact);
   }
+}
+
+/// Roads, and the crossings over them. Where there are crossings, the rest of the roads is closed to people.
+void mark_roads(rcContext& context, const WalkingGround& ground, rcCompactHeightfield& compact) {
+  mark_strips(context, ground.roads, road_area, 0.3f, compact);
+  mark_strips(context, ground.crossings, crossing_area, 0.0f, compact);
+  if (ground.crossings.empty()) return;
+  for (int i = 0; i < compact.spanCount; ++i)
+    if (compact.areas[i] == road_area) compact.areas[i] = RC_NULL_AREA;
 }
 
 /// The bytes that Detour takes as a tile; empty where nobody can walk.
@@ -126,7 +136,7 @@ TileBytes make_tile(const WalkingGround& ground, std::span<const std::uint32_t> 
   Compact compact(rcAllocCompactHeightfield());
   constexpr int min_region = 16, merged_region = 400;
   if (!rcBuildCompactHeightfield(&context, headroom, climb_cells, *solid, *compact)) return {};
-  mark_roads(context, ground.roads, *compact);
+  mark_roads(context, ground, *compact);
   if (!rcErodeWalkableArea(&context, radius_cells, *compact) || !rcBuildDistanceField(&context, *compact) ||
       !rcBuildRegions(&context, *compact, border, min_region, merged_region))
     return {};
@@ -240,7 +250,7 @@ void NavMesh::Data::measure() {
         tiles_of.decodePolyId(tile->links[link].ref, salt, other_tile, other);
         sets.join(number, first[other_tile] + other);
       }
-      if (polygon.getArea() == road_area) continue;  // nobody stays on it
+      if (polygon.getArea() != floor_area) continue;  // nobody stays on others
       const auto at = [&](int c) { return to_house(tile->verts + 3 * std::size_t(polygon.verts[c])); };
       for (int c = 2; c < polygon.vertCount; ++c) {
         pieces_of[number].push_back({at(0), at(c - 1), at(c), 0.0f});

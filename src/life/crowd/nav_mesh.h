@@ -39,6 +39,8 @@ struct WalkingGround {
   std::vector<glm::vec3> corners;  ///< three of each triangle; both sides count
   std::vector<GroundKind> kinds;   ///< one for each triangle
   std::vector<RoadStrip> roads;    ///< where ground is road, whatever its triangles say
+  /// Where people cross those roads; with any of them nobody walks on roads elsewhere.
+  std::vector<RoadStrip> crossings;
 };
 
 /// How the mesh is made.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/bounds.h"
+#include "land/roads/street_crossings.h"
 #include "scene/data/model.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/surroundings.h"
@@ -12,13 +13,26 @@
 namespace parvis::crowd {
 namespace {
 
+constexpr float to_kerb_m =
+    3.2f;  // from a street's outer lane: a parking strip, and a body's width of pavement
 constexpr float max_strip_m = 4.0f;  // of a lane whose points lie farther apart: heights change in between
+
+/// The kind of ground by its material: parking strips, say, are carriageways without a lane.
+GroundKind kind_of(std::string_view material) {
+  constexpr std::array<std::string_view, 4> roads{"road_", "zebra", "carriageway", "asphalt"};
+  return std::ranges::any_of(roads, [&](std::string_view road) { return material.starts_with(road); })
+             ? GroundKind::road
+             : GroundKind::floor;
+}
 
 void add_triangles(const scene::Object& object, glm::vec2 centre, float radius_m, WalkingGround& ground) {
   const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
   for (std::size_t p = 0; p < object.model->parts.size(); ++p) {
     const scene::Part& part = object.model->parts[p];
     const Mesh& mesh = object.mesh(p);
+    const GroundKind kind = part.material >= 0
+                                ? kind_of(object.model->materials[std::size_t(part.material)].name)
+                                : GroundKind::floor;
     const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       std::array<glm::vec3, 3> corners;
@@ -30,7 +44,7 @@ void add_triangles(const scene::Object& object, glm::vec2 centre, float radius_m
       const glm::vec2 nearest = glm::clamp(centre, low, high);
       if (!(glm::distance(nearest, centre) < radius_m)) continue;
       ground.corners.insert(ground.corners.end(), corners.begin(), corners.end());
-      ground.kinds.push_back(GroundKind::floor);
+      ground.kinds.push_back(kind);
     }
   }
 }
@@ -101,6 +115,11 @@ WalkingGround ground_of(const scene::Scene& scene, glm::vec2 centre, float radiu
     if (!object.is_dynamic && object.is_visible && object.model && !scene::surrounds_place(scene, object))
       add_triangles(object, centre, radius_m, ground);
   for (const scene::Lane& lane : scene.roads.lanes) add_lane(lane, centre, radius_m, ground);
+  for (const scene::StreetCrossing& crossing : scene::street_crossings(scene)) {
+    const glm::vec3 across = glm::normalize(crossing.b - crossing.a) * to_kerb_m;
+    const RoadStrip strip{crossing.a - across, crossing.b + across, 2.0f * crossing.half_width_m};
+    if (glm::distance(glm::vec2(strip.a), centre) < radius_m) ground.crossings.push_back(strip);
+  }
   return ground;
 }
 

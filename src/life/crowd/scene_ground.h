@@ -6,8 +6,9 @@
 
 namespace parvis::crowd {
 
-/// The triangles of the scene's static, visible objects within `radius_m` of `centre` in plan, and its lanes
-/// as roads. What surrounds the place (scene::surrounds_place) does not count, nor what lies below ground.
+/// The triangles of the scene's static, visible objects within `radius_m` of `centre` in plan, its lanes
+/// and what materials call a road as roads, and the crossings of its streets. What surrounds the place
+/// (scene::surrounds_place) does not count, nor what lies below ground.
 WalkingGround ground_of(const scene::Scene& scene, glm::vec2 centre, float radius_m);
 
 /// Heights of ground triangles, exact: those of the navigation mesh are off by up to 5 cm.

@@ -9,13 +9,18 @@ namespace parvis::traffic {
 
 namespace {
 
-constexpr float spacing_m = 6.0f;          // between vehicles that are put on a street
-constexpr float share_of_room = 0.5f;      // that vehicles may fill: beyond it streets jam for good
-constexpr float early_request_m = 20.0f;   // before the stop line, beside the braking distance
-constexpr float gentle_braking = 1.5f;     // m/s2: for bends, and for asking in time
-constexpr float queue_braking = 4.0f;      // m/s2: what the last of a queue may do at the most
-constexpr float other_way_after_s = 6.0f;  // of waiting, a driver thinks of another turn
-constexpr float touching_m = 0.2f;         // no vehicle comes nearer to another, whatever the model says
+constexpr float spacing_m = 6.0f;               // between vehicles that are put on a street
+constexpr float share_of_room = 0.5f;           // that vehicles may fill: beyond it streets jam for good
+constexpr float early_request_m = 20.0f;        // before the stop line, beside the braking distance
+constexpr float gentle_braking = 1.5f;          // m/s2: for bends, and for asking in time
+constexpr float queue_braking = 4.0f;           // m/s2: what the last of a queue may do at the most
+constexpr float other_way_after_s = 6.0f;       // of waiting, a driver thinks of another turn
+constexpr float braking_before_people = 3.0f;   // m/s2
+constexpr float crossing_looked_for_m = 12.0f;  // beside the braking distance
+constexpr float before_stripes_m = 1.0f, beside_stripes_m = 0.3f;
+constexpr float slow_ahead = 2.0f;  // m/s of the vehicle ahead: a crossing before it might be stood on
+constexpr float bridge_m = 3.0f;
+constexpr float touching_m = 0.2f;  // no vehicle comes nearer to another, whatever the model says
 
 /// Index into the route of the first shared lane before the vehicle that it does not hold; the route's size
 /// if none.
@@ -183,6 +188,62 @@ Simulation::Obstacle Simulation::obstacle_ahead(std::size_t index) const {
   return nearest;
 }
 
+void Simulation::share(scene::StreetTraffic& streets) {
+  streets_ = &streets;
+  streets.vehicles.resize(vehicles_.size());
+  streets.taken.assign(streets.crossings.size(), 0);
+  write_vehicles();
+}
+
+void Simulation::write_vehicles() {
+  for (std::size_t i = 0; i < vehicles_.size(); ++i) {
+    const Footprint& place = footprints_[i];
+    scene::StreetTraffic::Vehicle& vehicle = streets_->vehicles[i];
+    const glm::vec2 half = place.half_length_m * place.forward;
+    vehicle.rear = place.centre - half, vehicle.front = place.centre + half;
+    vehicle.half_width_m = place.half_width_m, vehicle.velocity = vehicles_[i].speed * place.forward;
+    vehicle.ground_m = vehicles_[i].point_behind(0.0f, lanes_).z;
+  }
+}
+
+/// A driver stops before a crossing that people walk over or wait at, and before one that would be stood on
+/// behind what is ahead. Where there is no stopping any more, or the vehicle is on it, the crossing is taken.
+void Simulation::heed_crossings(std::size_t index, Obstacle& nearest) {
+  const Vehicle& vehicle = vehicles_[index];
+  const float half_m = 0.5f * vehicle.length_m(),
+              stopping_m = vehicle.speed * vehicle.speed / (2.0f * braking_before_people);
+  const float seen_m = stopping_m + crossing_looked_for_m;
+  const glm::vec2 middle = footprints_[index].centre;
+  for (std::size_t c = 0; c < streets_->crossings.size(); ++c) {
+    const scene::StreetCrossing& crossing = streets_->crossings[c];
+    const float reach_m = 0.5f * glm::distance(crossing.a, crossing.b) + crossing.half_width_m;
+    if (glm::distance(middle, 0.5f * glm::vec2(crossing.a + crossing.b)) > reach_m + seen_m + half_m ||
+        std::abs(crossing.a.z - vehicle.point_behind(0.0f, lanes_).z) > bridge_m)
+      continue;
+    // Where the middle of the vehicle's way lies on the crossing, from the front bumper.
+    float from_m = -1.0f, to_m = -1.0f;
+    bool is_met = false;
+    for (float at_m = -vehicle.length_m(); at_m < seen_m + reach_m; at_m += 0.5f) {
+      if (!crossing.contains(glm::vec2(vehicle.point_behind(-at_m, lanes_)), beside_stripes_m)) {
+        if (is_met) break;
+        continue;
+      }
+      if (!is_met) from_m = at_m;
+      is_met = true, to_m = at_m;
+    }
+    if (!is_met || from_m > seen_m) continue;
+    const float stop_m = from_m - before_stripes_m;
+    const bool can_stop = stop_m > 0.0f && stop_m >= stopping_m;
+    const bool would_stand =
+        nearest.gap_m < to_m + vehicle.length_m() + before_stripes_m && nearest.speed < slow_ahead;
+    if (can_stop && (streets_->people[c] != 0 || would_stand)) {
+      if (stop_m < nearest.gap_m) nearest = {stop_m, 0.0f};
+    } else if (!can_stop) {
+      streets_->taken[c] = 1;
+    }
+  }
+}
+
 /// The speed from which gentle braking reaches every slower place ahead in time.
 float Simulation::wanted_speed(const Vehicle& vehicle) const {
   float wanted = lanes_[std::size_t(vehicle.lane())].safe_speed_at(vehicle.front_m);
@@ -230,14 +291,17 @@ void Simulation::move(std::size_t index) {
 void Simulation::step() {
   note_presences();
   settle_rights();
+  if (streets_) std::ranges::fill(streets_->taken, std::uint8_t(0));
   for (std::size_t i = 0; i < vehicles_.size(); ++i) {
     Vehicle& vehicle = vehicles_[i];
-    const Obstacle obstacle = obstacle_ahead(i);
+    Obstacle obstacle = obstacle_ahead(i);
+    if (streets_ && streets_->has_people) heed_crossings(i, obstacle);
     const float wish = free_acceleration(driver_, vehicle.speed, wanted_speed(vehicle)) -
                        interaction(driver_, vehicle.speed, obstacle.gap_m - touching_m, obstacle.speed);
     vehicle.acceleration = std::max(wish, -hardest_braking);
   }
   for (std::size_t i = 0; i < vehicles_.size(); ++i) move(i);
+  if (streets_) write_vehicles();
 }
 
 }  // namespace parvis::traffic

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "land/roads/street_crossings.h"
 #include "life/traffic/car_following.h"
 #include "life/traffic/vehicle.h"
 #include "scene/action/event_queue.h"
@@ -24,6 +25,9 @@ class Simulation {
   std::size_t spread_vehicles(std::size_t wanted, std::uint64_t seed);
   /// Advances the simulation by `step_s`. Allocates no memory.
   void step();
+  /// Gives way to people on the crossings of `streets` from now on, and writes there which are taken by
+  /// vehicles, and where those are. It must outlive the simulation.
+  void share(scene::StreetTraffic& streets);
 
   /// Lanes of the road graph after streets are cut.
   const std::vector<DrivingLane>& lanes() const { return lanes_; }
@@ -42,6 +46,8 @@ class Simulation {
   void ask_for_right(Vehicle& vehicle, std::size_t index);
   bool has_room(const Vehicle& vehicle, std::size_t index, int lane) const;
   Obstacle obstacle_ahead(std::size_t index) const;
+  void heed_crossings(std::size_t index, Obstacle& nearest);
+  void write_vehicles();
   float wanted_speed(const Vehicle& vehicle) const;
   bool would_touch(std::size_t index, float distance_m) const;
   void move(std::size_t index);
@@ -59,6 +65,7 @@ class Simulation {
   std::vector<Footprint> footprints_;   ///< of the vehicles, as far as they have moved in this step
   std::vector<std::size_t> from_west_;  ///< vehicles in the order of x, at the step's beginning
   float longest_reach_m_ = 0.0f;        ///< between the middles of two vehicles that touch
+  scene::StreetTraffic* streets_ = nullptr;
 };
 
 }  // namespace parvis::traffic

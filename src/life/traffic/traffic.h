@@ -27,6 +27,8 @@ class Traffic {
   void add_vehicles(scene::Scene& scene);
   /// Advances the simulation by `step_s`. Allocates no memory.
   void step() { simulation_->step(); }
+  /// Shares the scene's streets with people who walk: Simulation::share.
+  void share(scene::StreetTraffic& streets) { simulation_->share(streets); }
   /// Places the objects of `add_vehicles` `ahead_s` (0 to `step_s`) after the last step but one: interpolated
   /// between the last two steps.
   void place(scene::Scene& scene, double ahead_s) const;

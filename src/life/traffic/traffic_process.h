@@ -21,6 +21,11 @@ class TrafficProcess final : public action::Process {
     traffic_ = std::make_unique<Traffic>(scene);
     for (const std::string& warning : traffic_->warnings()) warn(error("{}", warning));
     traffic_->add_vehicles(scene);
+    streets_ = std::make_shared<scene::StreetTraffic>();
+    streets_->crossings = scene::street_crossings(scene);
+    streets_->people.assign(streets_->crossings.size(), 0);
+    traffic_->share(*streets_);
+    scene.data<scene::SharedStreets>().now = streets_;
   }
   void step(const scene::Scene&) override { traffic_->step(); }
   void present(scene::Scene& scene, double ahead_s) override { traffic_->place(scene, ahead_s); }
@@ -29,6 +34,7 @@ class TrafficProcess final : public action::Process {
   const Traffic& traffic() const { return *traffic_; }
 
  private:
+  std::shared_ptr<scene::StreetTraffic> streets_;
   std::unique_ptr<Traffic> traffic_;
 };
 

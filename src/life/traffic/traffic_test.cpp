@@ -312,5 +312,38 @@ TEST(Traffic, MoreVehiclesThanRoomAreTurnedAway) {
   EXPECT_EQ(traffic.warnings().size(), 1u);
 }
 
+TEST(Traffic, StopsBeforeCrossingsThatPeopleWalkOver) {
+  const scene::Scene scene = scene_of(grid(3, 120.0f), 12);
+  for (const bool are_heeded : {true, false}) {
+    Traffic traffic(scene);
+    scene::StreetTraffic streets;
+    streets.has_people = true;
+    streets.crossings = scene::street_crossings(scene);
+    streets.people.assign(streets.crossings.size(), 0);
+    ASSERT_FALSE(streets.crossings.empty());
+    traffic.share(streets);
+    int driven_onto = 0;
+    std::vector<bool> was_taken(streets.crossings.size(), false);
+    for (int s = 0; s < 60 * 60; ++s) {
+      // Somebody walks wherever no vehicle was, every other ten seconds.
+      for (std::size_t c = 0; c < streets.crossings.size(); ++c) {
+        const bool is_on = std::ranges::any_of(streets.vehicles, [&](const auto& vehicle) {
+          return streets.crossings[c].contains(vehicle.front) || streets.crossings[c].contains(vehicle.rear);
+        });
+        if (streets.people[c] != 0 && is_on && !was_taken[c]) ++driven_onto;
+        was_taken[c] = streets.taken[c] != 0 || is_on;
+        const bool walks = s / 600 % 2 == 0 && (streets.people[c] != 0 || streets.taken[c] == 0) && !is_on;
+        streets.people[c] = walks ? 1 : 0;
+      }
+      streets.has_people = are_heeded;
+      traffic.step();
+    }
+    if (are_heeded)
+      EXPECT_EQ(driven_onto, 0);
+    else
+      EXPECT_GT(driven_onto, 5) << "the control: drivers who do not look";
+  }
+}
+
 }  // namespace
 }  // namespace parvis::traffic

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "land/roads/street_crossings.h"
 #include "life/tram/tram_line.h"
 #include "scene/action/event_queue.h"
 #include "scene/action/process.h"
@@ -17,15 +18,22 @@ class TramProcess final : public action::Process {
   std::string status() const override;
   /// Adds an object for each section of each tram.
   void begin(scene::Scene& scene, action::SharedByProcesses&) override;
-  void step(const scene::Scene&) override { ++steps_; }
+  void step(const scene::Scene&) override {
+    ++steps_;
+    if (streets_) share();
+  }
   void present(scene::Scene& scene, double ahead_s) override;
 
  private:
   struct Running {
     TramLine line;
-    std::size_t first_object = 0;  ///< then those of its trams, section by section
+    std::size_t first_object = 0;   ///< then those of its trams, section by section
+    std::size_t first_vehicle = 0;  ///< of the streets' vehicles, likewise
   };
+  void share();
+
   std::vector<Running> lines_;
+  std::shared_ptr<scene::StreetTraffic> streets_;  ///< null: nobody else moves
   long steps_ = 0;
 };
 
