@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "base/colour.h"
 
 namespace parvis::people {
 namespace {
 
 using glm::vec3;
 
+constexpr float cloth_tile_m = 0.10f, cloth_tiles_round = 9.0f;  // of the texture of yarns
 constexpr float hem_room_m = 0.04f;  // cloth goes on beyond its hem, where it is cut
 
 float fade(float from, float to, float x) {
@@ -188,6 +192,14 @@ class Tailor {
     mesh.colours.clear();
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
       mesh.colours.emplace_back(vec3(shade(mesh.positions[v], mesh.normals[v])), 1.0f);
+    // The yarns of trunk and limbs run round the body's axis; where they begin and end, at the back, is the
+    // seam.
+    mesh.uvs.resize(mesh.positions.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      const vec3 p = mesh.positions[v];
+      const float round = std::atan2(p.y, p.x) / (2.0f * std::numbers::pi_v<float>);
+      mesh.uvs[v] = {cloth_tiles_round * round, p.z / cloth_tile_m};
+    }
     garments_.push_back({name, std::move(mesh), surface, moves});
   }
 
@@ -515,6 +527,32 @@ class Tailor {
 };
 
 }  // namespace
+
+Image8 cloth_texture(int size) {
+  constexpr int yarn_px = 4;  // 1.6 mm
+  constexpr float mean = 0.86f, of_yarns = 0.13f, of_weave = 0.08f;
+  Image8 image(size, size, 4, 255);
+  // Each yarn has a tone of its own, which changes along it; every other one lies on top.
+  const auto tone = [size](int yarn, int along, int use) {
+    const int yarns = size / yarn_px;
+    std::uint32_t x = std::uint32_t(yarn % yarns) * 0x9e3779b9u + std::uint32_t(along / 24) * 0x85ebca6bu +
+                      std::uint32_t(use);
+    x ^= x >> 16, x *= 0x7feb352du, x ^= x >> 15, x *= 0x846ca68bu, x ^= x >> 16;
+    return float(x >> 8) / float(1u << 24) - 0.5f;
+  };
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const int column = x / yarn_px, row = y / yarn_px;
+      const bool is_warp = (column + row) % 2 == 0;
+      const int across = (is_warp ? x : y) % yarn_px;
+      const float round = 1.0f - std::abs((float(across) + 0.5f) / (0.5f * float(yarn_px)) - 1.0f);
+      const float value =
+          mean + of_yarns * (is_warp ? tone(column, y, 1) : tone(row, x, 2)) + of_weave * (round - 0.5f);
+      const float shown = srgb_from_linear(glm::clamp(value, 0.0f, 1.0f));
+      for (int i = 0; i < 3; ++i) image.at(x, y)[i] = std::uint8_t(255.0f * shown + 0.5f);
+    }
+  return image;
+}
 
 std::vector<Garment> dressed(const BodyField& body, const Outfit& outfit, float detail) {
   return Tailor(body, outfit, detail).dress();

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "base/image.h"
 #include "life/people/body_field.h"
 
 namespace parvis::people {
@@ -41,6 +42,9 @@ struct Garment {
   Surface surface = top_cloth;
   Moves moves = Moves::top;
 };
+
+/// Yarns of cloth in shades of white, a tile of 10 cm, sRGB.
+Image8 cloth_texture(int size);
 
 /// Everything but the head; cells are about `detail` times those of a near view.
 std::vector<Garment> dressed(const BodyField& body, const Outfit& outfit, float detail);

@@ -398,13 +398,13 @@ vec3 face_colour(const HeadLook& l, vec3 q, const HeadField& field) {
     }
     if (open > 0.0f) {
       const float r = glm::length(glm::vec2(p.y - y0 + 0.002f, p.z - z0 - 0.004f));
-      vec3 eye(0.62f, 0.58f, 0.55f);
+      vec3 eye(0.50f, 0.465f, 0.44f);
       eye = glm::mix(eye, vec3(0.50f, 0.30f, 0.27f), 0.55f * soft_step(0.55f, 1.0f, std::abs(t)));
       const float streaks = 1.0f + 0.25f * std::sin(26.0f * std::atan2(p.z - z0, p.y - y0));
       eye = glm::mix(eye, l.iris * 1.5f * streaks, soft_step(0.0275f, 0.0250f, r));
       eye = glm::mix(eye, l.iris * 0.25f, bump(r - 0.0262f, 0.0028f));
       eye = glm::mix(eye, vec3(0.004f), soft_step(0.0125f, 0.0105f, r));
-      eye *= 1.0f - 0.60f * soft_step(0.013f, 0.0f, upper - p.z);
+      eye *= 1.0f - 0.68f * soft_step(0.016f, 0.0f, upper - p.z);
       const float glint = glm::length(glm::vec2(q.y - std::copysign(y0, q.y) - 0.008f, p.z - z0 - 0.0135f));
       eye = glm::mix(eye, vec3(0.95f), soft_step(0.0062f, 0.0042f, glint));
       colour = glm::mix(colour, eye, open);

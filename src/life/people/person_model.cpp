@@ -114,12 +114,14 @@ Mesh hat_mesh(const HeadField& head, Hat hat, float cell_m) {
 }
 
 std::vector<scene::Texture> textures(Image8 face) {
-  std::vector<scene::Texture> list(3);
+  std::vector<scene::Texture> list(4);
   list[0].name = "face", list[0].image = std::move(face);
   list[0].wrap_u = scene::Wrap::repeat, list[0].wrap_v = scene::Wrap::clamp;
-  static const Image8 strands = strand_texture(256), normals = strand_normals(256);
+  static const Image8 strands = strand_texture(256), normals = strand_normals(256),
+                      yarns = cloth_texture(256);
   list[1].name = "strands", list[1].image = strands;
   list[2].name = "strand normals", list[2].image = normals, list[2].is_srgb = false;
+  list[3].name = "yarns", list[3].image = yarns;
   return list;
 }
 
@@ -143,6 +145,7 @@ scene::Model dressed_model(const BodyField& body, const HeadField& head, const S
   scene::Material& locks_of = model.materials[hair];
   locks_of.base_colour_texture = 1, locks_of.normal_texture = 2, locks_of.is_double_sided = true;
   for (const Surface s : {top_cloth, bottom_cloth}) model.materials[s].is_double_sided = true;
+  for (const Surface s : {top_cloth, shirt, bottom_cloth}) model.materials[s].base_colour_texture = 3;
   constexpr std::array<float, 3> cells{1.24f, 1.95f, 3.9f};
   constexpr std::array<glm::ivec2, 3> head_cells{{{52, 48}, {30, 28}, {12, 12}}},
       hair_cells{{{44, 26}, {24, 14}, {10, 7}}};
@@ -323,10 +326,11 @@ PersonLevels make_levels(const Someone& who, const Colours& colours) {
 
 std::vector<glm::vec4> painted_vertices(const PersonLevels::Cover& cover, const Someone& who,
                                         const Colours& colours) {
-  constexpr float strands = 0.7f;  // of the hair's colour, their mean
-  const std::array<vec3, surface_count> of_surface{vec3(1.0f),    who.head.skin,    strands * who.head.hair,
-                                                   colours.top,   colours.shirt,    colours.bottom,
-                                                   colours.shoes, colours.accessory};
+  constexpr float strands = 0.7f, yarns = 0.86f;  // means of their textures
+  const std::array<vec3, surface_count> of_surface{
+      vec3(1.0f),          who.head.skin,         strands * who.head.hair,
+      yarns * colours.top, yarns * colours.shirt, yarns * colours.bottom,
+      colours.shoes,       colours.accessory};
   std::vector<glm::vec4> result = cover.shades;
   for (std::size_t v = 0; v < result.size(); ++v) result[v] *= glm::vec4(of_surface[cover.surfaces[v]], 1.0f);
   return result;
