@@ -186,8 +186,9 @@ std::string nodes_of_kerbs(const Model& model, const std::vector<scene::Road>& s
   return fmt::format(
              "streetFurniture(kind=\"lamps\"{})\n"
              "lamp(of=\"street lamp *\", position=\"0 0 4.45\", flux_lm=5000)\n"
-             "parkedCars(share=0.4{})\n",
-             circle, circle) +
+             "parkedCars(share=0.4{})\n"
+             "crowd(people=40, centre={}, radius=60)\n",
+             circle, circle, point(eye)) +
          (has_trees ? "" : fmt::format("streetTrees(kind=\"plane\", spacing=12, clear=2.5{})\n", circle));
 }
 
