@@ -7,6 +7,7 @@ namespace parvis::crowd {
 namespace {
 
 constexpr float wall_reach_m = 1.2f;  // within which walls are looked for
+constexpr float floor_apart_m = 1.5f, steepest_seen = 0.3f;
 constexpr float corner_m = 0.5f;      // at which a corner is reached
 constexpr float own_lean_m = 0.7f;    // corners are passed wider by up to it
 constexpr float queue_lean_m = 0.4f;  // and by so much more at each look around in a queue
@@ -123,9 +124,16 @@ void Crowd::follow_way(std::size_t person) {
   const glm::vec2 here = walkers_.position[person];
   while (it.corner + 1 < it.way.size()) {
     const glm::vec2 corner = it.way[it.corner], next = it.way[it.corner + 1];
-    const bool is_there =
-        glm::distance(here, target_of(person)) < corner_m || glm::distance(here, corner) < corner_m;
-    if (!is_there && walls_.crosses(here, next, walkers_.height_m[person])) break;
+    // Below or above, on another floor, is neither here nor in sight.
+    const auto is_level = [&](glm::vec3 p) {
+      const float rise_m = std::abs(p.z - walkers_.height_m[person]);
+      return rise_m < std::max(floor_apart_m, steepest_seen * glm::distance(here, glm::vec2(p)));
+    };
+    const bool is_there = is_level(it.way[it.corner]) && (glm::distance(here, target_of(person)) < corner_m ||
+                                                          glm::distance(here, corner) < corner_m);
+    const bool sees_next =
+        is_level(it.way[it.corner + 1]) && !walls_.crosses(here, next, walkers_.height_m[person]);
+    if (!is_there && !sees_next) break;
     ++it.corner;
     it.lean_m = own_lean_m * fraction_of(it.number, 1);
   }

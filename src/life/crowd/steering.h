@@ -47,7 +47,7 @@ struct MovingBody {
 struct SteeringRules {
   float horizon_s = 1.6f;         ///< for which others are cleared
   float wall_horizon_s = 0.35f;   ///< for which walls are
-  float headway_s = 1.1f;         ///< to the person ahead, beyond touching; see above
+  float headway_s = 1.3f;         ///< to the person ahead, beyond touching; see above
   float headway_body = 0.86f;     ///< of both radii that counts as touching there
   float headway_stride = 1.1f;    ///< the same of who walks the same way: strides need room
   float headway_width = 0.8f;     ///< of both radii: who is farther beside the way is not ahead
