@@ -27,13 +27,8 @@ Measured measure_sound;                                                         
 Measured measure_vegetation;                                                                 // vegetation.cpp
 Measured measure_sceaux, measure_courtyard, measure_filling, measure_drawings;               // facades/
 Measured measure_reconstruction, measure_display, measure_maize, measure_distribution;       // trees/
-Measured measure_noise_cases, measure_noise_map;                              // noise.cpp
-Measured measure_sound;                                                       // sound.cpp
 Measured measure_walking, measure_recorded_people, measure_shown_people, measure_jumps;  // crowd/crowd.cpp
 Measured measure_square, measure_levels;                                                 // crowd/square.cpp
-Measured measure_vegetation;                                                             // vegetation.cpp
-Measured measure_sceaux, measure_courtyard, measure_filling, measure_drawings;           // facades/
-Measured measure_reconstruction, measure_display, measure_maize, measure_distribution;   // trees/
 
 /// Parts of reflections/maps.cpp, on a stage of the paper's city or on its scene.
 void measure_motion(stage::Stage& stage, const BenchSetup& setup, Report& report);

@@ -207,7 +207,7 @@ class Writer {
     return Ok{};
   }
 
-  /// What each pair of states places otherwise; a page turns a pair round by itself.
+  /// The each pair of states places otherwise; a page turns a pair round by itself.
   void add_differences() {
     site_["differences"] = Json::array();
     for (std::size_t from = 0; from < states_.size(); ++from)
