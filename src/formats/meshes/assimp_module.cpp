@@ -372,6 +372,9 @@ void cut_concave_polygons(aiMesh& mesh) {
   mesh.mNumFaces = unsigned(faces.size()), mesh.mFaces = new aiFace[faces.size()];  // the mesh deletes them
   std::ranges::copy(faces, mesh.mFaces);
   mesh.mPrimitiveTypes |= aiPrimitiveType_TRIANGLE;
+  // assimp ends the process where a mesh is said to have polygons and has none.
+  if (std::ranges::none_of(faces, [](const aiFace& face) { return face.mNumIndices > 3; }))
+    mesh.mPrimitiveTypes &= ~unsigned(aiPrimitiveType_POLYGON);
 }
 
 /// A file whose coordinates are those of a national grid.
