@@ -210,7 +210,7 @@ void measure_study_replay(const BenchSetup& setup, Report& report) {
   const std::filesystem::path file = setup.folder / "hour.study", log_file = setup.folder / "hour.sqlite";
   const std::filesystem::path scenes = setup.folder / "scenes";
   std::filesystem::copy(
-      source_folder() / "scenes", scenes,
+      "scenes", scenes,
       std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
   std::filesystem::remove(log_file);
   must(write_file(file,
@@ -248,7 +248,7 @@ void measure_study_kills(const BenchSetup& setup, Report& report) {
 }
 
 void measure_study_cases(const BenchSetup&, Report& report) {
-  const auto file = shared_data("study/sus_cases.json");
+  const auto file = shared_data("study/sus_cases.json", std::filesystem::current_path());
   if (!file) return report.skip("study_cases", "no ../shared/data/study");
   const nlohmann::json cases = nlohmann::json::parse(must(read_file(*file)));
   measure_sus(cases["sus"], report);
@@ -258,8 +258,9 @@ void measure_study_cases(const BenchSetup&, Report& report) {
 void measure_study_xdf(const BenchSetup& setup, Report& report) {
   const std::filesystem::path reader = setup.folder / "xdf_read", xdf = setup.folder / "P1.xdf",
                               found = setup.folder / "found";
-  const std::string compile = fmt::format("c++ -O1 -o '{}' '{}' -lxdf 2>/dev/null", reader.string(),
-                                          (source_folder() / "apps/bench/xdf_read.cc").string());
+  const std::string compile =
+      fmt::format("c++ -O1 -o '{}' '{}' -lxdf 2>/dev/null", reader.string(),
+                  (std::filesystem::current_path() / "apps/bench/xdf_read.cc").string());
   if (std::system(compile.c_str()) != 0) return report.skip("xdf_read_back", "libxdf-dev is not installed");
   const study::LoggedSession session{1, "P1", "s & <t>", "", 0, 1234.5};
   std::vector<study::Record> records;
