@@ -278,7 +278,7 @@ void measure_study_xdf(const BenchSetup& setup, Report& report) {
   const auto is_read_as = [&](const std::string& bytes) {
     must(write_file(xdf, bytes));
     const std::string command =
-        fmt::format("'{}' '{}' > '{}' 2>/dev/null", reader.string(), xdf.string(), found.string());
+        fmt::format("'{}' '{}' '{}' > /dev/null 2>&1", reader.string(), xdf.string(), found.string());
     return std::system(command.c_str()) == 0 && must(read_file(found)) == expected_of(session, records);
   };
   std::string bytes = study::xdf_of(session, records);
