@@ -15,7 +15,8 @@ constexpr float paint_reach_m = 16.0f;                     // within which paint
 constexpr float paint_beside_m = 6.0f;                     // and across it
 constexpr float lanes_apart_m = 9.0f;                      // between the lanes of one street
 constexpr float same_street = 0.9f, mouth_level_m = 1.5f;  // cosine between directions; metres between lanes
-constexpr float unpainted_m = 2.0f, painted_m = 1.9f;      // half widths: people keep off the ends of stripes
+constexpr int min_arms = 3;  // of a junction: where fewer streets meet, one turns round or continues
+constexpr float unpainted_m = 2.0f, painted_m = 1.9f;  // half widths: people keep off the ends of stripes
 
 /// Where a lane meets a junction.
 struct Mouth {
@@ -23,6 +24,7 @@ struct Mouth {
   glm::vec2 along;
   float width_m;
   bool is_painted;
+  int junction;  ///< Lane::crossing of its turns
 };
 
 /// Middles of the triangles that are painted as zebras.
@@ -63,24 +65,25 @@ std::optional<float> painted_at(const std::vector<glm::vec3>& paint, glm::vec3 e
 }
 
 std::vector<Mouth> mouths_of(const RoadGraph& roads, const std::vector<glm::vec3>& paint) {
-  std::vector<bool> leaves_junction(roads.lanes.size(), false);
+  std::vector<int> left_junction(roads.lanes.size(), -1);  // of each lane, the one that it comes from
   for (const Lane& lane : roads.lanes)
     for (const int next : lane.next)
-      if (lane.crossing >= 0) leaves_junction[std::size_t(next)] = true;
+      if (lane.crossing >= 0) left_junction[std::size_t(next)] = lane.crossing;
   std::vector<Mouth> mouths;
   for (std::size_t i = 0; i < roads.lanes.size(); ++i) {
     const Lane& lane = roads.lanes[i];
     if (lane.crossing >= 0 || lane.points.size() < 2) continue;
     const MeasuredPath path(lane.points);
-    const auto add = [&](float end_m, float sign) {
+    const auto add = [&](int junction, float end_m, float sign) {
       const glm::vec2 away = sign * glm::vec2(path.direction_at(end_m));
       const std::optional<float> zebra = painted_at(paint, path.at(end_m), away);
       const float back_m = std::min(zebra.value_or(setback_m), 0.5f * path.length());
-      mouths.push_back({path.at(end_m + sign * back_m), away, lane.width_m, zebra.has_value()});
+      mouths.push_back({path.at(end_m + sign * back_m), away, lane.width_m, zebra.has_value(), junction});
     };
-    const auto is_turn = [&](int next) { return roads.lanes[std::size_t(next)].crossing >= 0; };
-    if (std::ranges::any_of(lane.next, is_turn)) add(path.length(), -1.0f);
-    if (leaves_junction[i]) add(0.0f, 1.0f);
+    const auto junction_of = [&](int next) { return roads.lanes[std::size_t(next)].crossing; };
+    const auto turn = std::ranges::find_if(lane.next, [&](int next) { return junction_of(next) >= 0; });
+    if (turn != lane.next.end()) add(junction_of(*turn), path.length(), -1.0f);
+    if (left_junction[i] >= 0) add(left_junction[i], 0.0f, 1.0f);
   }
   return mouths;
 }
@@ -100,6 +103,7 @@ std::vector<StreetCrossing> street_crossings(const Scene& scene) {
   const std::vector<Mouth> mouths = mouths_of(scene.roads, zebra_paint(scene));
   std::vector<bool> is_used(mouths.size(), false);
   std::vector<StreetCrossing> crossings;
+  std::vector<const Mouth*> made_at;  // of each crossing
   for (std::size_t i = 0; i < mouths.size(); ++i) {
     if (is_used[i]) continue;
     // The lanes of one street end side by side.
@@ -122,8 +126,14 @@ std::vector<StreetCrossing> street_crossings(const Scene& scene) {
     crossings.push_back({first.middle + glm::vec3(from * across, 0.0f),
                          first.middle + glm::vec3(to * across, 0.0f),
                          first.is_painted ? painted_m : unpainted_m});
+    made_at.push_back(&first);
   }
-  return crossings;
+  std::vector<StreetCrossing> kept;
+  for (std::size_t i = 0; i < crossings.size(); ++i)
+    if (made_at[i]->is_painted ||
+        std::ranges::count(made_at, made_at[i]->junction, &Mouth::junction) >= min_arms)
+      kept.push_back(crossings[i]);
+  return kept;
 }
 
 }  // namespace parvis::scene

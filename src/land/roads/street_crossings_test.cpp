@@ -39,7 +39,7 @@ TEST(StreetCrossings, LieAcrossAllLanesOfEveryStreetAtAJunction) {
     EXPECT_FALSE(crossing.contains(glm::vec2(0.0f)));
   }
   EXPECT_GT(distances(crossings).front(), 5.0f) << "outside of the junction";
-  EXPECT_LT(distances(crossings).back(), 12.0f);
+  EXPECT_LT(distances(crossings).back(), 14.0f);
 }
 
 TEST(StreetCrossings, LieOnThePaintOfZebras) {
@@ -47,13 +47,13 @@ TEST(StreetCrossings, LieOnThePaintOfZebras) {
   auto model = std::make_shared<Model>();
   model->materials.resize(1), model->materials[0].name = "zebra_wide";
   Part part;
-  part.mesh.positions = {{11, -3.5f, 0}, {15, -3.5f, 0}, {15, 3.5f, 0}, {11, 3.5f, 0}};
+  part.mesh.positions = {{15, -3.5f, 0}, {19, -3.5f, 0}, {19, 3.5f, 0}, {15, 3.5f, 0}};
   part.mesh.indices = {0, 1, 2, 0, 2, 3};
   model->parts.push_back(std::move(part));
   Object object;
   object.model = std::move(model);
   scene.objects.push_back(std::move(object));
-  EXPECT_NEAR(distances(street_crossings(scene)).back(), 13.0f, 0.2f);
+  EXPECT_NEAR(distances(street_crossings(scene)).back(), 17.0f, 0.2f);
 }
 
 TEST(StreetCrossings, AStreetWithoutAJunctionHasNone) {

@@ -22,6 +22,9 @@ constexpr float mean_speed = 1.34f, speed_deviation = 0.26f, min_speed = 0.6f,
 constexpr float longest_rest_s = 12.0f,
                 resting = 0.35f;           // the fraction of arrivals after which somebody rests
 constexpr float max_people_per_m2 = 1.0f;  // Weidmann: beyond it nobody walks as they like
+// Within which a walker may come onto ground that a tram covers; who was pushed over its edge so far waits,
+// too.
+constexpr float carried_s = 1.0f, pushed_m = 0.3f;
 constexpr float seen_from_m = 2.0f, step_ahead_m = 0.9f;  // of crossings, before their edge
 constexpr float vehicle_height_m = 2.5f;
 constexpr float turn_rate = 5.0f;  // radians per second
@@ -214,9 +217,11 @@ void CrowdProcess::cross_streets() {
       if (is_on || steps_on) streets_->people[c] = 1;
       if (steps_on && streets_->taken[c] != 0) crowd_->hold(p, true);
     }
+    // Those who give way to others do not go where they want to.
     const glm::vec2 next = here + step_ahead_m * crowd_->direction(p);
+    const glm::vec2 carried_to = here + carried_s * walkers.velocity[p];
     const auto is_entered = [&](const scene::StreetCrossing& strip) {
-      return strip.contains(next) && !strip.contains(here);
+      return !strip.contains(here, -pushed_m) && (strip.contains(next) || strip.contains(carried_to));
     };
     if (std::ranges::any_of(streets_->kept_clear, is_entered)) crowd_->hold(p, true);
   }

@@ -138,7 +138,7 @@ TEST_F(GeneratedPeople, DoNotStepOntoGroundThatATramCoversNext) {
         constexpr float pushed_m = 0.3f;
         const bool is_on = track.contains(process_.crowd()->walkers().position[p], -pushed_m);
         count += is_on && !was_on[p] ? 1 : 0;
-        was_on[p] = is_on || track.contains(process_.crowd()->walkers().position[p]);
+        was_on[p] = is_on || (was_on[p] && track.contains(process_.crowd()->walkers().position[p]));
       }
     }
     return count;
