@@ -47,6 +47,7 @@ std::span<const Part> all_parts() {
       {"light", "shadows", "shadows of each technique against exact ones", measure_shadows},
       {"light", "shadow_times", "exact shadows of a picture beside its shadow maps", measure_shadow_times},
       {"plan", "hand", "a bench that is dragged and placed in the paper's city", measure_plan},
+      {"plan", "sketch", "lines of a sketch beside the edges that rays reach", measure_sketch},
       {"plan", "files", "undo, replay and kills", measure_plan_files, false},
       {"plan", "photomontage", "cameras of photographs from six clicks", measure_clicked_cameras, false},
       {"study", "replay", "an hour of synthetic input, replayed from its log", measure_study_replay, false},
