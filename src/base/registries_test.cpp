@@ -29,7 +29,7 @@ TEST(Registries, KeepsARegistryOfEachType) {
   EXPECT_EQ(finished.get<Numbers>().all, (std::vector<int>{7, 7}));
 }
 
-TEST(Registries, RegistriesOfOtherHousesAreOthers) {
+TEST(Registries, ThoseOfOtherProgramsAreOthers) {
   Registries first;
   register_room(first);
   const Registries second;

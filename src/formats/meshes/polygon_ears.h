@@ -37,7 +37,7 @@ inline bool is_concave(const std::vector<glm::dvec2>& corners) {
 
 /// Triangles of a polygon that runs counter-clockwise, as indices of its corners (Meisters 1975: Polygons
 /// have ears). A corner that lies on the side of an ear, as that of an even L does, keeps it from being cut.
-/// Of a polygon that crosses itself the triangles cover more than its inside.
+/// The triangles of a polygon that crosses itself cover more than its inside.
 inline std::vector<std::array<std::uint32_t, 3>> ears(const std::vector<glm::dvec2>& corners) {
   std::vector<std::uint32_t> left(corners.size());
   std::iota(left.begin(), left.end(), 0u);
