@@ -64,6 +64,8 @@ constexpr Key keys[]{
     {"plan_precision_mm", "mm", maximum(1.0), "40 bollards: rays to their sides against what was typed", {{"plan_precision_mm_to_the_centimetre"}}},
     {"photomontage_check_points_px", "px", maximum(1.0), "courtyard and Sceaux: points shown by the camera of six clicks off by .5 px against by their own; median of the photographs, root mean square over points", {{"photomontage_check_points_px_of_clicks_off_by_5"}}},
     {"photomontage_check_points_px_worst", "px", {}, "the same, the worst photograph"},
+    {"dxf_readers_agree_mm", "mm", maximum(1.0), "scenes/planned_square.xp as DXF, on the map and about zero: 1,500 points in GDAL, ezdxf, dxf-parser, LibreCAD, those that are installed", {{"dxf_readers_agree_mm_of_a_point_5_mm_aside"}}},
+    {"given_drawings_mm", "mm", maximum(1.0), "the drawings ../shared/data/plan: trees, benches, buildings, kerbs", {{"given_drawings_mm_in_their_own_unit"}}},
     {"undo_replay_identical", "", minimum(1.0), "10,000 random commands (1,000): undone, redone, replayed from the journal", {{"undo_replay_identical_of_one_step_less"}}},
     {"kill_loses_commands", "commands", maximum(0.0), "200 kills (20) at random moments", {{"kill_loses_commands_without_journal"}}},
     // study

@@ -49,6 +49,7 @@ std::span<const Part> all_parts() {
       {"plan", "hand", "a bench that is dragged and placed in the paper's city", measure_plan},
       {"plan", "sketch", "lines of a sketch beside the edges that rays reach", measure_sketch},
       {"plan", "files", "undo, replay and kills", measure_plan_files, false},
+      {"plan", "drawings", "drawings that other programs read, and given ones", measure_plan_drawings, false},
       {"plan", "photomontage", "cameras of photographs from six clicks", measure_clicked_cameras, false},
       {"study", "replay", "an hour of synthetic input, replayed from its log", measure_study_replay, false},
       {"study", "kills", "kills of the program that writes the log", measure_study_kills, false},

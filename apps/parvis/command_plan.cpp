@@ -20,6 +20,7 @@
 #include "planning/design/scene_surfaces.h"
 #include "planning/plan_drawing/plan_files.h"
 #include "scene_arguments.h"
+#include "window_surroundings.h"
 
 namespace parvis {
 namespace {
@@ -138,10 +139,13 @@ Status read_centre(const std::string& text, plan_drawing::Sheet& sheet) {
 Status write_drawings(const Arguments& arguments, const stage::Simulation& simulation) {
   if (arguments.pdf.empty() && arguments.dxf.empty() && arguments.csv.empty()) return Ok{};
   plan_drawing::Sheet sheet = arguments.sheet;
+  sheet.words = design::words_in(arguments.council.language);
   if (Status status = read_centre(arguments.centre, sheet); !status) return status;
   const plan_drawing::ScenePlan plan = plan_drawing::plan_of(
-      simulation.scene, design::placed_objects(simulation.scene, simulation.live(), "", true),
-      design::measurements(simulation.live(), "", true));
+      simulation.scene,
+      design::labelled_in(arguments.council.language,
+                          design::placed_objects(simulation.scene, simulation.live(), "", true)),
+      design::measurements(simulation.live(), "", true), design::words_in(arguments.council.language));
   if (sheet.title.empty()) sheet.title = arguments.scene.scene.stem().string();
   if (!arguments.pdf.empty())
     if (Status status = plan_drawing::write_plan_pdf(arguments.pdf, plan, sheet); !status) return status;
@@ -288,6 +292,13 @@ void add_plan(CLI::App& app, Chosen& chosen) {
       ->capture_default_str();
   command->add_option("--centre", arguments->centre, "Middle of the sheet, metres: X,Y in the scene's frame");
   command->add_option("--title", arguments->sheet.title, "Of the title block (default: the scene's name)");
+  command
+      ->add_option_function<std::string>(
+          "--language",
+          [arguments](const std::string& name) { arguments->council.language = design::language_of(name); },
+          "Of --pdf and --council: en or fr (default: the locale's)")
+      ->check(CLI::IsMember({"en", "fr"}));
+  arguments->council.language = design::language_of(locale());
   command->add_option("--subtitle", arguments->sheet.subtitle, "Its second line: project, state, author");
   std::string forms;
   for (const std::string& form : design::command_forms()) forms += "\n  " + form;

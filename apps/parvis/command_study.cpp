@@ -45,8 +45,8 @@ struct StudyArguments {
     command.add_option("--language", language, "Of instructions and questions (default: the locale's)")
         ->check(CLI::IsMember({"en", "fr"}));
   }
-  planner::Language chosen_language() const {
-    return planner::language_of(language.empty() ? locale() : language);
+  design::Language chosen_language() const {
+    return design::language_of(language.empty() ? locale() : language);
   }
   std::filesystem::path log_file() const {
     return log.empty() ? std::filesystem::path(task).replace_extension(".sqlite") : log;

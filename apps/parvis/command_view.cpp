@@ -45,7 +45,7 @@ Status view(ViewArguments& arguments) {
   window.pictures.name = window.title;
   if (window.pictures.folder.empty())
     window.pictures.folder = (arguments.scene.parent_path() / ".").lexically_normal();
-  window.language = planner::language_of(arguments.language.empty() ? locale() : arguments.language);
+  window.language = design::language_of(arguments.language.empty() ? locale() : arguments.language);
   window.kept_pictures = kept_pictures();
   Result<stage::Simulation> simulation = arguments.open_simulation();
   if (!simulation) return simulation.errors();

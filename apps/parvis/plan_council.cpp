@@ -59,7 +59,8 @@ Result<plan_drawing::SheetPicture> draw(stage::Stage& stage, const std::string& 
 
 /// A day of the scene's place, and its name; an empty name: the scene has no place on the earth.
 Result<std::pair<sun_hours::SunPeriod, std::string>> period_of(const scene::Scene& scene,
-                                                               const std::string& day) {
+                                                               const std::string& day,
+                                                               const design::Words& words) {
   constexpr std::array months{"January", "February", "March",     "April",   "May",      "June",
                               "July",    "August",   "September", "October", "November", "December"};
   const Result<std::pair<int, int>> date = read_date(day);
@@ -74,7 +75,8 @@ Result<std::pair<sun_hours::SunPeriod, std::string>> period_of(const scene::Scen
   if (Status status = check(period.place); !status) return status.errors();
   int month = 0, number = 0;
   std::sscanf(day.c_str(), "%*d-%d-%d", &month, &number);
-  return std::pair(period, fmt::format("{} {} {}", number, months[std::size_t(month - 1)], date->first));
+  return std::pair(period,
+                   fmt::format("{} {} {}", number, words(months[std::size_t(month - 1)]), date->first));
 }
 
 /// The rectangle about all that differs, with room for the shadows.
@@ -96,29 +98,33 @@ Status write_council(stage::Stage& stage, const design::Session& session, const 
     if (Status status = plan_drawing::check_scale(*options.scale); !status) return status;
   const Result<std::vector<std::string>> views = chosen_views(simulation.scene, options);
   if (!views) return views.errors();
-  const auto period = period_of(simulation.scene, options.day);
-  if (!period) return period.errors();
-  const std::vector<design::PlacedObject> before_objects =
-      design::placed_objects(simulation.scene, simulation.live(), options.before);
   plan_drawing::CouncilSheet sheet;
+  sheet.words = design::words_in(options.language);
+  const auto period = period_of(simulation.scene, options.day, sheet.words);
+  if (!period) return period.errors();
+  const auto labelled = [&](std::vector<design::PlacedObject> objects) {
+    return design::labelled_in(options.language, std::move(objects));
+  };
+  const std::vector<design::PlacedObject> before_objects =
+      labelled(design::placed_objects(simulation.scene, simulation.live(), options.before));
   sheet.title = options.title, sheet.subtitle = options.subtitle;
   sheet.before = options.before, sheet.after = session.name();
-  sheet.differences = design::differences(before_objects, session.objects());
+  sheet.differences = design::differences(before_objects, labelled(session.objects()));
   const auto extent = plan_drawing::extent_of(sheet.differences);
   if (!extent) return extent.errors();
-  sheet.rows = plan_drawing::difference_rows(sheet.differences);
+  sheet.rows = plan_drawing::difference_rows(sheet.differences, sheet.words);
   sheet.centre = extent->first;
   sheet.scale = options.scale.value_or(plan_drawing::fitting_scale(extent->second));
 
   if (Status status = show(simulation, sheet.before, sheet.after, false, false); !status) return status;
   const scene::Scene bare = simulation.scene;
-  std::vector<design::PlacedObject> staying = session.objects();
+  std::vector<design::PlacedObject> staying = labelled(session.objects());
   std::erase_if(staying, [&](const design::PlacedObject& object) {
     return std::ranges::any_of(
         sheet.differences, [&](const design::Difference& each) { return each.after.name == object.name; });
   });
   for (design::PlacedObject& object : staying) object.is_visible = true;  // it is, with the design
-  sheet.plan = plan_drawing::plan_of(bare, std::move(staying));
+  sheet.plan = plan_drawing::plan_of(bare, std::move(staying), {}, sheet.words);
   sheet.views.resize(views->size());
   std::array<scene::Scene, 2> scenes;
   Progress progress("council sheet", 2 * views->size() + 1);

@@ -19,6 +19,7 @@ struct CouncilOptions {
   std::vector<std::string> views;  ///< names of cameras; empty: all of the scene
   std::optional<double> scale;     ///< of the plan, 1 : scale; none: the largest usual one that fits
   std::string day = "2026-03-21";  ///< of the hours of sun
+  design::Language language = design::Language::english;
 };
 
 /// Draws the scene with either design and writes the sheet. Needs a current OpenGL context; afterwards the

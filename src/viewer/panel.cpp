@@ -43,7 +43,7 @@ std::string title_of(const scene::Node& scenario) {
 
 }  // namespace
 
-Panel::Panel(const ImguiContext& imgui, std::string title, planner::Language language)
+Panel::Panel(const ImguiContext& imgui, std::string title, design::Language language)
     : imgui_(imgui),
       title_(std::move(title)),
       driver_(gl::driver_name()),

@@ -16,8 +16,7 @@ namespace parvis::viewer {
 class Panel {
  public:
   /// `title` names the scene; the context outlives the panel.
-  Panel(const ImguiContext& imgui, std::string title,
-        planner::Language language = planner::Language::english);
+  Panel(const ImguiContext& imgui, std::string title, design::Language language = design::Language::english);
 
   bool is_open = false;
   bool shows_keys = false;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "planning/planner/words.h"
+#include "planning/design/words.h"
 #include "viewer/node_rows.h"
 #include "viewer/theme.h"
 
@@ -25,11 +25,11 @@ class PanelRows {
  public:
   /// `fonts` must outlive the rows. Names, headings, remarks and help are given in English and shown in
   /// `language`; places keep the English names.
-  explicit PanelRows(const Fonts& fonts, planner::Language language = planner::Language::english)
+  explicit PanelRows(const Fonts& fonts, design::Language language = design::Language::english)
       : fonts_(fonts), language_(language) {}
 
   /// An English word or sentence in the language of the panel.
-  std::string word(std::string_view english) const { return planner::in_language(english, language_); }
+  std::string word(std::string_view english) const { return design::in_language(english, language_); }
 
   /// Rectangles of the widgets drawn since `forget_places`.
   const Places& places() const { return places_; }
@@ -77,7 +77,7 @@ class PanelRows {
 
   Places places_;
   const Fonts& fonts_;
-  planner::Language language_;
+  design::Language language_;
   Held held_;
 };
 

@@ -43,7 +43,7 @@ class PanelTest : public SquareTest {
     put_up(1.0f);
   }
 
-  void put_up(float scale, planner::Language language = planner::Language::english) {
+  void put_up(float scale, design::Language language = design::Language::english) {
     panel_.reset();
     imgui_.reset();
     imgui_ = std::make_unique<ImguiContext>(scale);
@@ -169,7 +169,7 @@ TEST_F(PanelTest, ThePageOfTheVisitIsGolden) {
 }
 
 TEST_F(PanelTest, SpeaksFrenchAndKeepsItsPlaces) {
-  put_up(1.0f, planner::Language::french);
+  put_up(1.0f, design::Language::french);
   panel_->shows_keys = true;
   const std::string french = text();
   for (const char* word : {"Se déplacer", "À pied", "Lumière", "Scénarios", "Touches"})
@@ -177,7 +177,7 @@ TEST_F(PanelTest, SpeaksFrenchAndKeepsItsPlaces) {
   for (const char* word : {"Moving", "Light", "Camera", "Keys"})
     EXPECT_EQ(french.find(word), std::string::npos) << word;
   for (const KeyHelp& help : key_help)
-    EXPECT_NE(planner::in_language(help.does, planner::Language::french), help.does);
+    EXPECT_NE(design::in_language(help.does, design::Language::french), help.does);
   panel_->shows_keys = false;
   click("Fly");
   EXPECT_EQ(visit_->mode(), Mode::fly);

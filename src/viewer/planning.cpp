@@ -55,7 +55,7 @@ std::optional<glm::vec3> step_on_foot(design::SceneSurfaces& surfaces, glm::vec3
 
 }  // namespace
 
-Planning::Planning(Visit& visit, planner::Language language)
+Planning::Planning(Visit& visit, design::Language language)
     : visit_(visit),
       language_(language),
       surfaces_(std::make_shared<design::SceneSurfaces>(visit.stage().simulation().scene)) {}

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "planning/design/difference.h"
+#include "planning/design/words.h"
 #include "planning/planner/tool.h"
-#include "planning/planner/words.h"
 #include "planning/study/session.h"
 #include "viewer/comparison.h"
 #include "viewer/visit.h"
@@ -22,7 +22,7 @@ enum class PlanningView : unsigned char { plan, street, balcony };
 class Planning {
  public:
   /// The visit outlives it.
-  Planning(Visit& visit, planner::Language language);
+  Planning(Visit& visit, design::Language language);
 
   /// Is the tool in hand? Its bars are shown then.
   bool is_on() const { return is_on_; }
@@ -97,9 +97,9 @@ class Planning {
   /// Frames what is selected.
   void frame_selection();
 
-  planner::Language language() const { return language_; }  ///< as given
+  design::Language language() const { return language_; }  ///< as given
   /// A word of the tool in the planner's language.
-  std::string word(std::string_view english) const { return planner::in_language(english, language_); }
+  std::string word(std::string_view english) const { return design::in_language(english, language_); }
   /// Does anything hang on the pointer or move? The scene stands still meanwhile.
   bool holds_things() { return is_on_ && tool() && !tool()->preview().is_empty(); }
   /// Time passes in which the eye moves, the pointer moves, or neither: what was placed settles then.
@@ -120,7 +120,7 @@ class Planning {
   const std::vector<planner::PlanSegment>& plan_lines();
 
   Visit& visit_;
-  planner::Language language_;
+  design::Language language_;
   std::shared_ptr<design::SceneSurfaces> surfaces_;
   bool is_on_ = false, waits_for_balcony_ = false;
   std::unique_ptr<Desk> desk_;

@@ -18,7 +18,7 @@ class PlanningTest : public SquareTest {
   void SetUp() override {
     SquareTest::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    planning_.emplace(*visit_, planner::Language::english);
+    planning_.emplace(*visit_, design::Language::english);
     planning_->turn_on(true);
     ASSERT_TRUE(planning_->is_on()) << told();
     look_from("roof");
@@ -151,7 +151,7 @@ TEST_F(PlanningTest, TwoDesignsShareTheWindow) {
       "camera(name=roof, position=\"12 -16 14\", heading_deg=325, pitch_deg=-28)\n"
       "design(name=old) { placed(name=k, kind=kiosk, position=\"-2 -4 0\") }\n"
       "design(name=new, visible=0) { placed(name=u, kind=umbrella, position=\"2 -4 0\") }\n");
-  planning_.emplace(*visit_, planner::Language::english);
+  planning_.emplace(*visit_, design::Language::english);
   planning_->turn_on(true);
   look_from("roof");
   const auto turn_to = [&](const char* design) {

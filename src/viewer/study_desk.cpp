@@ -91,7 +91,7 @@ void StudyDesk::draw(float picture_width) {
 
 void StudyDesk::draw_instruction(float width) {
   const study::Part& part = *session_.part();
-  const planner::Language language = planning_.language();
+  const design::Language language = planning_.language();
   ImGui::SetNextWindowPos({0.5f * width, 46.0f * imgui_.scale()}, ImGuiCond_Always, {0.5f, 0.0f});
   ImGui::SetNextWindowBgAlpha(0.9f);
   ImGui::Begin("instruction", nullptr, desk_flags | ImGuiWindowFlags_NoFocusOnAppearing);
@@ -113,7 +113,7 @@ void StudyDesk::draw_instruction(float width) {
 }
 
 void StudyDesk::draw_question(const study::Questionnaire& questionnaire, const study::Question& question) {
-  const planner::Language language = planning_.language();
+  const design::Language language = planning_.language();
   const std::string key = questionnaire.name + "." + question.name;
   const auto answered = session_.answers().find(key);
   const std::string answer = answered == session_.answers().end() ? "" : answered->second;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "planning/planner/words.h"
+#include "planning/design/words.h"
 #include "planning/study/session.h"
 #include "stage/stage.h"
 #include "viewer/visit.h"
@@ -18,9 +18,9 @@ struct WindowOptions {
   std::string camera;      ///< where the visit begins; empty: the scene's first
   bool has_panel = false;  ///< at first; F2 opens and closes it
   bool plans = false;      ///< begins with the planner's tool in hand
-  planner::Language language = planner::Language::english;  ///< of the planner's tool
-  std::filesystem::path kept_pictures;                      ///< of the catalogue; empty: they are not kept
-  PicturePlace pictures;                                    ///< where those go that the visitor takes
+  design::Language language = design::Language::english;  ///< of the planner's tool
+  std::filesystem::path kept_pictures;                    ///< of the catalogue; empty: they are not kept
+  PicturePlace pictures;                                  ///< where those go that the visitor takes
   int max_frames = 0;  ///< closes after so many; 0: when the visitor does (tests and screenshots)
   std::optional<double> frames_per_second;  ///< to hold by drawing fewer pixels; 0: none; unset: `rate_of`
   bool always_holds_rate = false;           ///< the window's own rate is held where `max_frames` is set, too

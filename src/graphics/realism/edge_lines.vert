@@ -20,9 +20,21 @@ vec4 clip_of(vec3 mesh_position) {
          vec4(dot(world_from_mesh_row0, p), dot(world_from_mesh_row1, p), dot(world_from_mesh_row2, p), 1.0f);
 }
 
+/// How much a face's depth (z over w, which is affine on the screen) changes over `shift`, of the screen's
+/// half size, from an edge between two of its points; 0 where the face is seen from its edge.
+float change_of_depth(vec4 a, vec4 b, vec4 inside, vec2 shift) {
+  vec3 p = a.xyz / a.w, u = b.xyz / b.w - p, v = inside.xyz / inside.w - p;
+  float area = u.x * v.y - u.y * v.x;
+  if (abs(area) < 1e-9f || inside.w <= 0.0f) return 0.0f;
+  vec2 gradient = vec2(u.z * v.y - u.y * v.z, u.x * v.z - u.z * v.x) / area;
+  return dot(gradient, shift);
+}
+
 void main() {
-  const float nearest = 0.05f;   // of the eye's depth, for lines that go past it
-  const float before = 1.0025f;  // depth, which is reversed: so much nearer than the surface
+  const float nearest = 0.05f;  // of the eye's depth, for lines that go past it
+  // Depth is reversed. A line lies before the faces of its edge over all of its width and hardly more, or it
+  // would show through what it goes into.
+  const float before = 1.0002f, most_before = 1.0025f;
   const float outline_px = 1.7f, crease_px = 1.05f;  // in a picture 720 pixels high
   vec3 to_eye = eye_in_mesh.xyz - edge_from;
   float side = dot(edge_normal.xyz, to_eye), other_side = dot(edge_other_normal.xyz, to_eye);
@@ -47,8 +59,15 @@ void main() {
   vec2 shift_px =
       0.5f * width_px *
       ((is_end ? along : -along) + ((gl_VertexID & 2) != 0 ? 1.0f : -1.0f) * vec2(-along.y, along.x));
-  end.xy += shift_px / half_size * end.w;
-  end.z *= before;
+  vec2 shift = shift_px / half_size;
+  vec3 along_edge = edge_to - edge_from;
+  vec3 reach = 0.01f * length(to_eye) / max(length(along_edge), 1e-9f) * along_edge;  // metres
+  vec4 inside = clip_of(edge_from + cross(edge_normal.xyz, reach));
+  vec4 other_inside = clip_of(edge_from + cross(edge_other_normal.xyz, reach));
+  float nearer = max(change_of_depth(a, b, inside, shift), change_of_depth(a, b, other_inside, shift));
+  float depth = end.z / end.w;
+  end.xy += shift * end.w;
+  end.z = end.w * clamp(depth * before + max(nearer, 0.0f), depth * before, depth * most_before);
   gl_Position = end;
   // Far lines are thinner than a pen draws: they have less ink.
   float distance_m = min(a.w, b.w);

@@ -275,6 +275,7 @@ PlacedObject placed_object(const scene::Scene& scene, const Node& node, const st
   object.heading_deg = exact_decimal(float(glm::degrees(node.number("heading_deg"))));
   const Kind* kind = find_kind(scene, object.kind);
   object.label = kind ? kind->label : object.kind;
+  if (kind) object.label_fr = kind->label_fr;
   object.size_m = kind ? size_of(node, *kind) : glm::dvec3(1.0);
   object.is_round = kind && kind->is_round;
   object.colour = node.gives("colour") ? node.vec3("colour") : kind ? kind->colour : glm::vec3(0.5f);

@@ -32,6 +32,13 @@ std::vector<glm::dvec2> ellipse_outline(glm::dvec2 centre, glm::dvec2 size_m, do
   return outline;
 }
 
+std::vector<PlacedObject> labelled_in(Language language, std::vector<PlacedObject> objects) {
+  if (language == Language::french)
+    for (PlacedObject& object : objects)
+      object.label = object.label_fr.empty() ? in_language(object.label, language) : object.label_fr;
+  return objects;
+}
+
 double signed_area_m2(const std::vector<glm::dvec2>& outline) {
   double twice = 0.0;
   for (std::size_t i = 0; i < outline.size(); ++i) {

@@ -5,15 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "planning/design/words.h"
+
 namespace parvis::design {
 
 /// An object that a design places, or a ground surface of it.
 struct PlacedObject {
-  std::string name;    ///< unique in the scene
-  std::string design;  ///< that it belongs to
-  std::string kind;    ///< of the catalogue: "bench_wood"; of a ground surface "ground"
-  std::string label;   ///< what people call the kind
-  std::string group;   ///< objects of one name are selected together; empty: none
+  std::string name;             ///< unique in the scene
+  std::string design;           ///< that it belongs to
+  std::string kind;             ///< of the catalogue: "bench_wood"; of a ground surface "ground"
+  std::string label, label_fr;  ///< what people call the kind, in English and French
+  std::string group;            ///< objects of one name are selected together; empty: none
   /// Where its foot stands, in the scene's frame; with Scene::origin added, in map coordinates.
   glm::dvec3 position{0.0};
   double heading_deg = 0.0;  ///< clockwise from north: of its front, away from which a bench's back stands
@@ -26,6 +28,9 @@ struct PlacedObject {
   bool is_locked = false;
   bool is_visible = true;
 };
+
+/// The same objects, labelled for people who read this language.
+std::vector<PlacedObject> labelled_in(Language language, std::vector<PlacedObject> objects);
 
 /// The corners of a rectangle about `centre`, `size_m` wide and deep, whose front looks to `heading_deg`.
 /// Counter-clockwise, from its left front corner on.

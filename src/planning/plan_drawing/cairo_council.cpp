@@ -37,7 +37,7 @@ void draw_frame(const Page& page, const CouncilSheet& sheet, const std::string& 
   const double base = page_mm.y - edge_mm;
   page.line({edge_mm, base - 5.5}, {page_mm.x - edge_mm, base - 5.5}, 0.18, hair);
   page.text(sheet.subtitle, {edge_mm, base}, 2.2, width - 40.0, false, dim);
-  const std::string place = fmt::format("page {} of {}", number, count);
+  const std::string place = sheet.words.format("page {} of {}", number, count);
   page.text(place, {page_mm.x - edge_mm - page.text_width(place, 2.2), base}, 2.2, 40.0, false, dim);
 }
 
@@ -46,10 +46,10 @@ std::string counts_of(const CouncilSheet& sheet) {
   std::array<int, 4> counts{};
   for (const DifferenceRow& row : sheet.rows) counts[std::size_t(row.how)] += row.count;
   std::string text;
-  for (const auto& [how, word] :
-       {std::pair(1, "removed"), std::pair(0, "added"), std::pair(2, "moved"), std::pair(3, "changed")})
+  for (const auto& [how, word] : {std::pair(1, "{} removed"), std::pair(0, "{} added"),
+                                  std::pair(2, "{} moved"), std::pair(3, "{} changed")})
     if (counts[std::size_t(how)] > 0)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[std::size_t(how)], word);
+      text += (text.empty() ? "" : ", ") + sheet.words.format(word, counts[std::size_t(how)]);
   return text;
 }
 
@@ -79,7 +79,8 @@ void draw_marked(const Page& page, const Viewport& view, const design::PlacedObj
   cairo_set_dash(page.context(), nullptr, 0, 0.0);
 }
 
-void draw_way(const Page& page, const Viewport& view, const design::Difference& moved, const Colour& colour) {
+void draw_way(const Page& page, const Viewport& view, const design::Difference& moved, const Colour& colour,
+              const design::Words& words) {
   const glm::dvec2 from = view.on_page(glm::dvec2(moved.before.position)),
                    to = view.on_page(glm::dvec2(moved.after.position));
   const double length = glm::distance(from, to);
@@ -89,13 +90,13 @@ void draw_way(const Page& page, const Viewport& view, const design::Difference& 
   const double head = std::min(2.4, 0.5 * length);
   page.path({to, to - head * along + 0.4 * head * across, to - head * along - 0.4 * head * across}, true);
   page.set(colour), cairo_fill(page.context());
-  const std::string text = fmt::format("{:.2f} m", moved.moved_m);
+  const std::string text = words.format("{:.2f} m", moved.moved_m);
   page.text(text, 0.5 * (from + to) + glm::dvec2(1.0, -1.0), 1.9, 60.0, false, colour);
 }
 
 /// Surfaces first, then what is removed, and what stands there over all.
 void draw_differences(const Page& page, const Viewport& view,
-                      const std::vector<design::Difference>& differences) {
+                      const std::vector<design::Difference>& differences, const design::Words& words) {
   for (const bool is_ground : {true, false})
     for (const design::Differs how :
          {design::Differs::removed, design::Differs::added, design::Differs::changed, design::Differs::moved})
@@ -105,7 +106,7 @@ void draw_differences(const Page& page, const Viewport& view,
         if (how == design::Differs::moved) draw_marked(page, view, each.before, colour, 0.0, true);
         draw_marked(page, view, each.shown(), colour, is_ground ? 0.10 : 0.30,
                     how == design::Differs::removed);
-        if (how == design::Differs::moved) draw_way(page, view, each, colour);
+        if (how == design::Differs::moved) draw_way(page, view, each, colour, words);
       }
 }
 
@@ -128,7 +129,7 @@ class Clip {
 void draw_legend_and_table(const Page& page, const CouncilSheet& sheet, glm::dvec2 min, glm::dvec2 max) {
   const double width = max.x - min.x;
   double y = min.y + 4.0;
-  page.text("Legend", {min.x, y}, 2.8, width, true);
+  page.text(sheet.words("Legend"), {min.x, y}, 2.8, width, true);
   y += 6.5;
   for (const std::size_t how : {1u, 0u, 2u, 3u}) {
     const bool occurs = std::ranges::any_of(
@@ -137,14 +138,14 @@ void draw_legend_and_table(const Page& page, const CouncilSheet& sheet, glm::dve
     const Mark& mark = marks[how];
     page.path({{min.x, y - 2.6}, {min.x + 7.0, y - 2.6}, {min.x + 7.0, y + 0.6}, {min.x, y + 0.6}}, true);
     page.fill(mark.colour, 0.3), page.stroke(0.45, mark.colour);
-    page.text(mark.word, {min.x + 10.0, y}, 2.2, 40.0);
+    page.text(sheet.words(mark.word), {min.x + 10.0, y}, 2.2, 40.0);
     y += 5.6;
   }
   draw_north(page, {max.x - 8.0, min.y + 24.0});
   draw_scale_bar(page, {min.x + 42.0, min.y + 16.0}, sheet.scale, width - 66.0);
-  page.text(fmt::format("1:{:g} on A3", sheet.scale), {min.x + 42.0, min.y + 12.0}, 2.6, 40.0, true);
+  page.text(sheet.words.format("1:{:g} on A3", sheet.scale), {min.x + 42.0, min.y + 12.0}, 2.6, 40.0, true);
   y = std::max(y, min.y + 33.0) + 6.0;
-  page.text("What changes", {min.x, y}, 2.8, width, true);
+  page.text(sheet.words("What changes"), {min.x, y}, 2.8, width, true);
   y += 3.0;
   const std::array columns{min.x, min.x + 19.0, min.x + 55.0, min.x + 66.0};
   page.line({min.x, y}, {max.x, y}, 0.18, black);
@@ -153,7 +154,8 @@ void draw_legend_and_table(const Page& page, const CouncilSheet& sheet, glm::dve
   for (const DifferenceRow& row : sheet.rows) {
     if (y + 2.0 * row_mm > max.y) break;
     y += row_mm;
-    page.text(mark_of(row.how).word, {columns[0], y - 1.6}, 2.1, 18.0, true, mark_of(row.how).colour);
+    page.text(sheet.words(mark_of(row.how).word), {columns[0], y - 1.6}, 2.1, 18.0, true,
+              mark_of(row.how).colour);
     page.text(row.label, {columns[1], y - 1.6}, 2.1, 35.0);
     page.text(fmt::format("{}", row.count), {columns[2], y - 1.6}, 2.1, 10.0);
     page.text(row.detail, {columns[3], y - 1.6}, 2.1, max.x - columns[3]);
@@ -161,7 +163,8 @@ void draw_legend_and_table(const Page& page, const CouncilSheet& sheet, glm::dve
     ++shown;
   }
   if (shown < sheet.rows.size())
-    page.text(fmt::format("and {} further kinds: parvis plan --compare lists all", sheet.rows.size() - shown),
+    page.text(sheet.words.format("and {} further kinds: parvis plan --compare lists all",
+                                 sheet.rows.size() - shown),
               {min.x, y + 4.5}, 2.0, width, false, dim);
 }
 
@@ -172,7 +175,7 @@ void draw_plan_page(const Page& page, const CouncilSheet& sheet) {
     const Clip clip(page, min, max);
     PlanPainter painter(page, view);
     painter.draw(sheet.plan);
-    draw_differences(page, view, sheet.differences);
+    draw_differences(page, view, sheet.differences, sheet.words);
   }
   page.box(min, max, 0.35, black);
   draw_legend_and_table(page, sheet, {max.x + gap_mm, min.y}, {page_mm.x - edge_mm, bottom_mm});
@@ -191,7 +194,7 @@ void draw_scale_of(const Page& page, const Image8& colours, glm::dvec2 at, doubl
 
 void draw_figures(const Page& page, const CouncilSheet& sheet, const SunPictures& sun, glm::dvec2 at) {
   const std::array columns{at.x, at.x + 92.0, at.x + 122.0, at.x + 152.0};
-  const std::array heads{std::string(), sheet.before, sheet.after, std::string("Change")};
+  const std::array heads{std::string(), sheet.before, sheet.after, sheet.words("Change")};
   for (std::size_t k = 0; k < heads.size(); ++k) page.text(heads[k], {columns[k], at.y}, 2.3, 28.0, true);
   double y = at.y + 2.2;
   page.line({at.x, y}, {at.x + 182.0, y}, 0.18, black);
@@ -217,7 +220,7 @@ void draw_sun_page(const Page& page, const CouncilSheet& sheet, const SunPicture
   double x = edge_mm;
   for (const auto& [picture, caption, part] :
        {std::tuple(&sun.before, sheet.before, 0), std::tuple(&sun.after, sheet.after, 1),
-        std::tuple(&sun.change, std::string("What changes"), 2)}) {
+        std::tuple(&sun.change, sheet.words("What changes"), 2)}) {
     const glm::dvec2 min(x, top_mm + caption_mm), max = min + size;
     page.text(caption, {x, top_mm + 3.8}, 2.8, widest, true);
     page.picture(*picture, "", min, size);
@@ -241,17 +244,18 @@ void draw_sun_page(const Page& page, const CouncilSheet& sheet, const SunPicture
     const glm::dvec2 below(x, max.y + 4.0);
     if (part < 2)
       draw_scale_of(page, sun.hours_scale, below, std::min(90.0, size.x), "0 h",
-                    fmt::format("{:.1f} h", 0.5 * sun.max_hours), fmt::format("{:.1f} h", sun.max_hours));
+                    sheet.words.format("{:.1f} h", 0.5 * sun.max_hours),
+                    sheet.words.format("{:.1f} h", sun.max_hours));
     else
       draw_scale_of(page, sun.change_scale, below, std::min(90.0, size.x),
-                    fmt::format("{:g} h less", sun.max_change_h), "as before",
-                    fmt::format("{:g} h more", sun.max_change_h));
+                    sheet.words.format("{:g} h less", sun.max_change_h), sheet.words("as before"),
+                    sheet.words.format("{:g} h more", sun.max_change_h));
     x += widest + gap_mm;
   }
   const double y = top_mm + caption_mm + size.y + 26.0;
   draw_figures(page, sheet, sun, {edge_mm, y});
   page.paragraph(
-      fmt::format(
+      sheet.words.format(
           "Hours of direct sun on the ground on {}, without clouds, 10 cm above the ground, in cells of "
           "{:.2f} m; "
           "buildings, plants and what the designs place cast their shadows, people and cars do not. Lines "
@@ -271,18 +275,18 @@ Status draw_council_sheet(const std::filesystem::path& file, const CouncilSheet&
   const int count = int(view_pages) + 1 + (sheet.sun ? 1 : 0);
   int number = 1;
   for (std::size_t first = 0; first < sheet.views.size(); first += per_page, page.next()) {
-    draw_frame(page, sheet, "Before and after: " + counts_of(sheet), number++, count);
+    draw_frame(page, sheet, sheet.words("Before and after: ") + counts_of(sheet), number++, count);
     double y = top_mm - 1.0;
     for (std::size_t i = first; i < std::min(first + per_page, sheet.views.size()); ++i) {
       draw_pair(page, sheet, sheet.views[i], y, width);
       y += 0.5 * (bottom_mm - top_mm) + 1.0;
     }
   }
-  draw_frame(page, sheet, "Plan of what changes", number++, count);
+  draw_frame(page, sheet, sheet.words("Plan of what changes"), number++, count);
   draw_plan_page(page, sheet);
   if (sheet.sun) {
     page.next();
-    draw_frame(page, sheet, "Hours of sun", number, count);
+    draw_frame(page, sheet, sheet.words("Hours of sun"), number, count);
     draw_sun_page(page, sheet, sun);
   }
   return page.finish();

@@ -43,7 +43,7 @@ void draw_column(const Page& page, glm::dvec2 min, glm::dvec2 max, const ScenePl
   const double title_top = max.y - title_block_mm;
   draw_north(page, {max.x - 12.0, min.y + 27.0});
   double y = min.y + 9.0;
-  page.text("Legend", {left, y}, 2.6, width, true);
+  page.text(sheet.words("Legend"), {left, y}, 2.6, width, true);
   y += 7.0;
   const auto entry = [&](const std::string& label, const auto& draw) {
     if (y > title_top - 8.0) return;
@@ -53,17 +53,17 @@ void draw_column(const Page& page, glm::dvec2 min, glm::dvec2 max, const ScenePl
   };
   for (const auto& [layer, count] : painter.layers()) {
     const Pen pen = pen_of(layer);
-    entry(pen.label,
+    entry(sheet.words(pen.label),
           [&](glm::dvec2 at) { page.line(at, at + glm::dvec2(8.0, 0), pen.width_mm, pen.colour); });
   }
   if (painter.trees() > 0)
-    entry(fmt::format("Tree ({})", painter.trees()), [&](glm::dvec2 at) {
+    entry(sheet.words.format("Tree ({})", painter.trees()), [&](glm::dvec2 at) {
       cairo_new_path(page.context());
       cairo_arc(page.context(), at.x + 4.0, at.y, 2.0, 0.0, 2.0 * std::numbers::pi);
       page.fill(green, 0.12), page.stroke(0.18, green);
     });
   if (painter.measured() > 0)
-    entry(fmt::format("Measured ({})", painter.measured()),
+    entry(sheet.words.format("Measured ({})", painter.measured()),
           [&](glm::dvec2 at) { page.line(at, at + glm::dvec2(8.0, 0), 0.18, crimson); });
   for (const auto& [label, kind] : painter.kinds())
     entry(fmt::format("{} ({})", label, kind.first), [&, colour = kind.second](glm::dvec2 at) {
@@ -74,26 +74,28 @@ void draw_column(const Page& page, glm::dvec2 min, glm::dvec2 max, const ScenePl
     });
   if (!plan.left_out.empty() && y < title_top - 20.0) {
     y += 3.0;
-    page.text("Not on this plan", {left, y}, 2.0, width, true);
+    page.text(sheet.words("Not on this plan"), {left, y}, 2.0, width, true);
     y += 4.0;
     for (const std::string& note : plan.left_out)
       if (y < title_top - 8.0) y = page.paragraph(note, {left, y}, 1.7, width) + 0.6;
   }
   page.line({min.x, title_top}, {max.x, title_top}, 0.35, black);
   y = title_top + 10.0;
-  page.text(sheet.title.empty() ? "Plan" : sheet.title, {left, y}, 4.0, width, true);
+  page.text(sheet.title.empty() ? sheet.words("Plan") : sheet.title, {left, y}, 4.0, width, true);
   if (!sheet.subtitle.empty()) page.text(sheet.subtitle, {left, y + 6.5}, 2.4, width);
   page.line({min.x, title_top + 22.0}, {max.x, title_top + 22.0}, 0.18, black);
   page.text(fmt::format("1:{:g}", sheet.scale), {left, title_top + 31.0}, 4.0, width, true);
-  page.text(fmt::format("{} landscape, north up", sheet.paper), {left + 26.0, title_top + 31.0}, 2.0,
+  page.text(sheet.words.format("{} landscape, north up", sheet.paper), {left + 26.0, title_top + 31.0}, 2.0,
             width - 26.0);
   draw_scale_bar(page, {left, title_top + 36.0}, sheet.scale, width - 6.0);
   page.line({min.x, title_top + 46.0}, {max.x, title_top + 46.0}, 0.18, black);
-  const std::string frame = plan.origin == glm::dvec3(0.0)             ? "the scene's own"
-                            : plan.map.empty() || plan.map.size() > 40 ? "those of the map"
-                                                                       : "those of " + plan.map;
-  page.paragraph(fmt::format("Coordinates are {}, in metres. Print at 100 %, not fitted to the page.", frame),
-                 {left, title_top + 51.0}, 1.7, width);
+  const char* const frame =
+      plan.origin == glm::dvec3(0.0)
+          ? "Coordinates are the scene's own, in metres. Print at 100 %, not fitted to the page."
+      : plan.map.empty() || plan.map.size() > 40
+          ? "Coordinates are those of the map, in metres. Print at 100 %, not fitted to the page."
+          : "Coordinates are those of {}, in metres. Print at 100 %, not fitted to the page.";
+  page.paragraph(sheet.words.format(frame, plan.map), {left, title_top + 51.0}, 1.7, width);
 }
 
 }  // namespace

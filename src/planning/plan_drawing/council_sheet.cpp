@@ -14,25 +14,25 @@ namespace {
 
 using design::Difference, design::Differs, design::PlacedObject;
 
-std::string detail_of(const std::vector<const Difference*>& alike) {
+std::string detail_of(const std::vector<const Difference*>& alike, const design::Words& words) {
   const PlacedObject& first = alike.front()->shown();
   if (alike.front()->how == Differs::moved) {
     double least = 1e30, most = 0.0;
     for (const Difference* each : alike)
       least = std::min(least, each->moved_m), most = std::max(most, each->moved_m);
-    if (most < 0.005) return "turned";
-    return most - least < 0.005 ? fmt::format("by {:.2f} m", most)
-                                : fmt::format("by {:.2f} to {:.2f} m", least, most);
+    if (most < 0.005) return words("turned");
+    return most - least < 0.005 ? words.format("by {:.2f} m", most)
+                                : words.format("by {:.2f} to {:.2f} m", least, most);
   }
   if (first.kind == "ground") {
     double area_m2 = 0.0;
     for (const Difference* each : alike) area_m2 += std::abs(design::signed_area_m2(each->shown().outline));
-    return fmt::format("{}, {:.0f} m\u00b2", first.material, area_m2);
+    return words.format("{}, {:.0f} m\u00b2", words(first.material), area_m2);
   }
   const bool is_one_size = std::ranges::all_of(
       alike, [&](const Difference* each) { return each->shown().size_m == first.size_m; });
-  if (!is_one_size) return "of several sizes";
-  return fmt::format("{:.2f} x {:.2f} x {:.2f} m", first.size_m.x, first.size_m.y, first.size_m.z);
+  if (!is_one_size) return words("of several sizes");
+  return words.format("{:.2f} x {:.2f} x {:.2f} m", first.size_m.x, first.size_m.y, first.size_m.z);
 }
 
 /// Blue where sun is lost, orange where it is gained, nearly white between; -1 to 1, sRGB from 0 to 255.
@@ -59,7 +59,7 @@ Image8 picture_of(const SunDifference& sun, const ColourOf& colour_of) {
 
 }  // namespace
 
-SunPictures sun_pictures(const SunDifference& sun) {
+SunPictures sun_pictures(const SunDifference& sun, const design::Words& words) {
   constexpr int scale_px = 96;
   SunPictures made;
   made.max_hours = sun.max_hours;
@@ -82,25 +82,26 @@ SunPictures sun_pictures(const SunDifference& sun) {
     put(made.change_scale, x, 0, change_colour(2.0 * share - 1.0));
   }
   const double mean_before = sun.mean_hours(sun.before), mean_after = sun.mean_hours(sun.after);
-  made.figures.push_back({"Mean hours of sun per day", fmt::format("{:.1f} h", mean_before),
-                          fmt::format("{:.1f} h", mean_after),
-                          fmt::format("{:+.1f} h", mean_after - mean_before)});
+  made.figures.push_back({words("Mean hours of sun per day"), words.format("{:.1f} h", mean_before),
+                          words.format("{:.1f} h", mean_after),
+                          words.format("{:+.1f} h", mean_after - mean_before)});
   for (const double min_h : {2.0, 4.0}) {
     const double before = sun.area_with_m2(sun.before, min_h), after = sun.area_with_m2(sun.after, min_h);
-    made.figures.push_back({fmt::format("Ground with {:g} hours or more", min_h),
-                            fmt::format("{:.0f} m\u00b2", before), fmt::format("{:.0f} m\u00b2", after),
-                            fmt::format("{:+.0f} m\u00b2", after - before)});
+    made.figures.push_back({words.format("Ground with {:g} hours or more", min_h),
+                            words.format("{:.0f} m\u00b2", before), words.format("{:.0f} m\u00b2", after),
+                            words.format("{:+.0f} m\u00b2", after - before)});
   }
-  made.figures.push_back({"Ground that loses an hour or more", "", "",
-                          fmt::format("{:.0f} m\u00b2", sun.area_changed_m2(-1.0))});
+  made.figures.push_back({words("Ground that loses an hour or more"), "", "",
+                          words.format("{:.0f} m\u00b2", sun.area_changed_m2(-1.0))});
+  made.figures.push_back({words("Ground that gains an hour or more"), "", "",
+                          words.format("{:.0f} m\u00b2", sun.area_changed_m2(1.0))});
   made.figures.push_back(
-      {"Ground that gains an hour or more", "", "", fmt::format("{:.0f} m\u00b2", sun.area_changed_m2(1.0))});
-  made.figures.push_back(
-      {"Ground in all, without what is built", "", "", fmt::format("{:.0f} m\u00b2", sun.area_m2())});
+      {words("Ground in all, without what is built"), "", "", words.format("{:.0f} m\u00b2", sun.area_m2())});
   return made;
 }
 
-std::vector<DifferenceRow> difference_rows(const std::vector<Difference>& differences) {
+std::vector<DifferenceRow> difference_rows(const std::vector<Difference>& differences,
+                                           const design::Words& words) {
   constexpr std::array order{Differs::removed, Differs::added, Differs::moved, Differs::changed};
   std::vector<DifferenceRow> rows;
   for (const Differs how : order) {
@@ -110,7 +111,7 @@ std::vector<DifferenceRow> difference_rows(const std::vector<Difference>& differ
       if (each.how == how) by_label[object.label.empty() ? object.kind : object.label].push_back(&each);
     }
     for (const auto& [label, alike] : by_label)
-      rows.push_back({how, label, int(alike.size()), detail_of(alike)});
+      rows.push_back({how, label, int(alike.size()), detail_of(alike, words)});
   }
   return rows;
 }
@@ -139,7 +140,7 @@ double fitting_scale(glm::dvec2 half_extent_m) {
 Status write_council_sheet(const std::filesystem::path& file, const CouncilSheet& sheet) {
   if (Status status = check_scale(sheet.scale); !status) return status;
   return write_atomically(file, [&](const std::filesystem::path& temporary) {
-    const SunPictures sun = sheet.sun ? sun_pictures(*sheet.sun) : SunPictures{};
+    const SunPictures sun = sheet.sun ? sun_pictures(*sheet.sun, sheet.words) : SunPictures{};
     return cairo.call(&CairoFunctions::draw_council_sheet, temporary, sheet, sun);
   });
 }

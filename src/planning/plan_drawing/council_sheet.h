@@ -8,6 +8,7 @@
 
 #include "base/image.h"
 #include "planning/design/difference.h"
+#include "planning/design/words.h"
 #include "planning/plan_drawing/scene_plan.h"
 #include "planning/plan_drawing/sun_difference.h"
 
@@ -37,7 +38,8 @@ struct DifferenceRow {
 };
 
 /// The rows of a table of differences: removed, added, moved, changed; by label in each.
-std::vector<DifferenceRow> difference_rows(const std::vector<design::Difference>& differences);
+std::vector<DifferenceRow> difference_rows(const std::vector<design::Difference>& differences,
+                                           const design::Words& words = {});
 
 /// Hours of sun, ready to be drawn.
 struct SunPictures {
@@ -47,7 +49,7 @@ struct SunPictures {
   std::vector<std::vector<std::string>> figures;  ///< a table: what, before, after, change
 };
 /// All pictures from the hours.
-SunPictures sun_pictures(const SunDifference& sun);
+SunPictures sun_pictures(const SunDifference& sun, const design::Words& words = {});
 
 /// All that the sheet shows.
 struct CouncilSheet {
@@ -61,6 +63,7 @@ struct CouncilSheet {
   glm::dvec2 centre{0.0};  ///< of the plan, in the scene's frame
   std::optional<SunDifference> sun;
   std::string sun_day;  ///< "21 March 2026"
+  design::Words words;  ///< of all that the pages say
 };
 
 /// The middle and half the extent of what differs, in plan. Errors: nothing does.

@@ -79,6 +79,15 @@ TEST(CouncilSheet, PagesAreWrittenWhole) {
   for (const char* const said :
        {"page 1 of 3", "page 3 of 3", "street: old", "1 added, 1 moved", "1:200 on A3", "by 0.40 m"})
     EXPECT_NE(text->find(said), std::string::npos) << said << " in\n" << *text;
+  sheet.words = design::words_in(design::Language::french);
+  sheet.rows = difference_rows(sheet.differences, sheet.words);
+  ASSERT_TRUE(write_council_sheet(folder.path() / "council.pdf", sheet));
+  ASSERT_EQ(std::system(fmt::format("cd '{}' && pdftotext council.pdf", folder.path().string()).c_str()), 0);
+  const Result<std::string> french = read_file(folder.path() / "council.txt");
+  ASSERT_TRUE(french);
+  for (const char* const said :
+       {"page 1 sur 3", "ajouts : 1, déplacements : 1", "de 0,40 m", "Ce qui change"})
+    EXPECT_NE(french->find(said), std::string::npos) << said << " in\n" << *french;
   sheet.scale = 1.0;
   EXPECT_FALSE(write_council_sheet(folder.path() / "other.pdf", sheet));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "other.pdf"));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/result.h"
+#include "planning/design/words.h"
 #include "planning/plan_drawing/scene_plan.h"
 
 namespace parvis::plan_drawing {
@@ -16,6 +17,7 @@ struct Sheet {
   double scale = 200.0;              ///< 1 : scale
   std::optional<glm::dvec2> centre;  ///< of what is shown, in the scene's frame; nothing: ScenePlan::middle
   std::string title, subtitle;       ///< of the title block; UTF-8
+  design::Words words;               ///< of legend, notes and title block
 };
 
 /// Width and height of a paper in landscape, millimetres; nothing for a name that is none of A0 to A4.

@@ -158,16 +158,17 @@ void add_drawings(const scene::Scene& scene, ScenePlan& plan) {
   }
 }
 
-void note_left_out(const scene::Scene& scene, std::size_t moving, ScenePlan& plan) {
-  plan.left_out.emplace_back(
+void note_left_out(const scene::Scene& scene, std::size_t moving, const design::Words& words,
+                   ScenePlan& plan) {
+  plan.left_out.push_back(words(
       "What is higher than 1 m above the ground and does not reach down to it (awnings, balconies, bridges, "
-      "roofs), and the slopes of the ground.");
-  if (moving > 0) plan.left_out.push_back(fmt::format("{} things that move (vehicles, people).", moving));
+      "roofs), and the slopes of the ground."));
+  if (moving > 0) plan.left_out.push_back(words.format("{} things that move (vehicles, people).", moving));
   for (const scene::TracedKind& kind : scene.traced_kinds) {
     const bool is_shown =
         kind.name.find("tree") != std::string::npos || kind.name.find("plant") != std::string::npos;
     if (const int count = kind.count(scene); count > 0 && !is_shown)
-      plan.left_out.push_back(fmt::format("{} of the kind \"{}\".", count, kind.name));
+      plan.left_out.push_back(words.format("{} of the kind \"{}\".", count, kind.name));
   }
 }
 
@@ -186,7 +187,7 @@ glm::dvec2 ScenePlan::middle() const {
 }
 
 ScenePlan plan_of(const scene::Scene& scene, std::vector<design::PlacedObject> placed,
-                  const std::vector<design::Measurement>& measured) {
+                  const std::vector<design::Measurement>& measured, const design::Words& words) {
   ScenePlan plan;
   for (const design::Measurement& each : measured) plan.measured.push_back(PlanMeasure::of(each));
   plan.origin = scene.origin, plan.map = scene.map;
@@ -205,7 +206,7 @@ ScenePlan plan_of(const scene::Scene& scene, std::vector<design::PlacedObject> p
   }
   add_plants(scene, plan);
   add_drawings(scene, plan);
-  note_left_out(scene, moving, plan);
+  note_left_out(scene, moving, words, plan);
   return plan;
 }
 

@@ -8,6 +8,7 @@
 
 #include "planning/design/measurement.h"
 #include "planning/design/placed_object.h"
+#include "planning/design/words.h"
 #include "scene/data/scene.h"
 
 namespace parvis::plan_drawing {
@@ -73,8 +74,8 @@ struct ScenePlan {
 inline constexpr float section_height_m = 1.0f;
 
 /// The plan of all static, visible things. `placed`: the objects of designs, which are left out of the rest
-/// where they are the scene's objects of the same name.
+/// where they are the scene's objects of the same name. `words`: of what it says to be left out.
 ScenePlan plan_of(const scene::Scene& scene, std::vector<design::PlacedObject> placed,
-                  const std::vector<design::Measurement>& measured = {});
+                  const std::vector<design::Measurement>& measured = {}, const design::Words& words = {});
 
 }  // namespace parvis::plan_drawing

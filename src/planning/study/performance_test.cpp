@@ -203,7 +203,7 @@ TEST(QuestionPages, AskWhatTheStudyAsksInBothLanguages) {
   const TestFolder folder;
   const Result<Study> study = write_test_study(folder.path());
   ASSERT_TRUE(study);
-  const std::string page = questionnaire_page(*study, planner::Language::french);
+  const std::string page = questionnaire_page(*study, design::Language::french);
   EXPECT_NE(page.find("name='sus.10' value='5'"), std::string::npos);
   EXPECT_NE(page.find("<textarea name='remarks.good'"), std::string::npos);
   EXPECT_NE(page.find("Je voudrais utiliser"), std::string::npos);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "planning/planner/words.h"
+#include "planning/design/words.h"
 
 namespace parvis::study {
 
@@ -16,8 +16,8 @@ struct Text {
   std::string english, french;
 
   /// The text in a language; English where it is not translated.
-  const std::string& in(planner::Language language) const {
-    return language == planner::Language::french && !french.empty() ? french : english;
+  const std::string& in(design::Language language) const {
+    return language == design::Language::french && !french.empty() ? french : english;
   }
 };
 

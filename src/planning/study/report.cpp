@@ -434,8 +434,8 @@ std::map<std::string, std::string> record_tables(const std::string& participant,
   return {{"events.csv", events}, {"frames.csv", frames}};
 }
 
-std::string questionnaire_page(const Study& study, planner::Language language) {
-  const bool is_french = language == planner::Language::french;
+std::string questionnaire_page(const Study& study, design::Language language) {
+  const bool is_french = language == design::Language::french;
   std::string form;
   for (const std::string& name : study.asked) {
     const Questionnaire& questionnaire = study.questionnaire(name);

@@ -25,6 +25,6 @@ std::map<std::string, std::string> record_tables(const std::string& participant,
 
 /// A page with the questions at the end of a study, for those who answer in a browser. It saves a file of
 /// inputs (performance.h), which `parvis study run --answers` takes.
-std::string questionnaire_page(const Study& study, planner::Language language);
+std::string questionnaire_page(const Study& study, design::Language language);
 
 }  // namespace parvis::study

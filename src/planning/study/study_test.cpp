@@ -25,7 +25,7 @@ TEST(StudyScripts, GiveTasksConditionsAndQuestions) {
   EXPECT_EQ(parts[0].condition, 1);
   EXPECT_EQ(parts[1].asked, std::vector<std::string>{"quick"});
   EXPECT_EQ(parts[1].condition, 1) << "answers after a task are those under its condition";
-  EXPECT_EQ(parts[2].task->instruction.in(planner::Language::french), "à droite");
+  EXPECT_EQ(parts[2].task->instruction.in(design::Language::french), "à droite");
   EXPECT_EQ(parts[3].asked, (std::vector<std::string>{"sus", "remarks"}));
   EXPECT_EQ(study->questionnaire("sus").questions.size(), 10u);
 }

@@ -1,10 +1,10 @@
-#include "planning/planner/words.h"
+#include "planning/design/words.h"
 
 #include <array>
 #include <unordered_map>
 #include <utility>
 
-namespace parvis::planner {
+namespace parvis::design {
 namespace {
 
 constexpr auto french = std::to_array<std::pair<std::string_view, std::string_view>>({
@@ -187,9 +187,87 @@ constexpr auto french = std::to_array<std::pair<std::string_view, std::string_vi
     {"shows these keys", "montrer ces touches"},
     {"opens and closes the panel", "ouvrir et fermer le panneau"},
     {"closes this, then the window", "fermer ceci, puis la fenêtre"},
+    // Sheets.
+    {"Ground surface", "Revêtement de sol"},
+    {"Legend", "Légende"},
+    {"Cut 1 m above the ground", "Coupe à 1 m du sol"},
+    {"Edge of road or square", "Bord de chaussée ou de place"},
+    {"Low object", "Objet bas"},
+    {"Hedge, grass", "Haie, herbe"},
+    {"Plan drawing", "Fond de plan"},
+    {"Tree ({})", "Arbre ({})"},
+    {"Measured ({})", "Mesures ({})"},
+    {"Not on this plan", "Absent de ce plan"},
+    {"What is higher than 1 m above the ground and does not reach down to it (awnings, balconies, bridges, "
+     "roofs), and the slopes of the ground.",
+     "Ce qui est à plus de 1 m du sol sans y descendre (auvents, balcons, ponts, toits), et les pentes du "
+     "sol."},
+    {"{} things that move (vehicles, people).", "{} objets mobiles (véhicules, passants)."},
+    {"{} of the kind \"{}\".", "{} de l'espèce « {} »."},
+    {"{} landscape, north up", "{} paysage, nord en haut"},
+    {"Coordinates are the scene's own, in metres. Print at 100 %, not fitted to the page.",
+     "Coordonnées de la scène, en mètres. Imprimer à 100 %, sans ajuster à la page."},
+    {"Coordinates are those of the map, in metres. Print at 100 %, not fitted to the page.",
+     "Coordonnées de la carte, en mètres. Imprimer à 100 %, sans ajuster à la page."},
+    {"Coordinates are those of {}, in metres. Print at 100 %, not fitted to the page.",
+     "Coordonnées {}, en mètres. Imprimer à 100 %, sans ajuster à la page."},
+    {"Added", "Ajouté"},
+    {"Removed", "Retiré"},
+    {"Moved", "Déplacé"},
+    {"Changed", "Modifié"},
+    {"{} added", "ajouts : {}"},
+    {"{} removed", "retraits : {}"},
+    {"{} moved", "déplacements : {}"},
+    {"{} changed", "modifications : {}"},
+    {"turned", "tourné"},
+    {"by {:.2f} m", "de {:.2f} m"},
+    {"by {:.2f} to {:.2f} m", "de {:.2f} à {:.2f} m"},
+    {"of several sizes", "de plusieurs dimensions"},
+    {"paving", "pavage"},
+    {"asphalt", "enrobé"},
+    {"gravel", "gravier"},
+    {"lawn", "pelouse"},
+    {"plain", "uni"},
+    {"page {} of {}", "page {} sur {}"},
+    {"1:{:g} on A3", "1:{:g} sur A3"},
+    {"What changes", "Ce qui change"},
+    {"and {} further kinds: parvis plan --compare lists all",
+     "et {} autres modèles : parvis plan --compare les donne tous"},
+    {"Change", "Différence"},
+    {"{:g} h less", "{:g} h de moins"},
+    {"as before", "comme avant"},
+    {"{:g} h more", "{:g} h de plus"},
+    {"Hours of direct sun on the ground on {}, without clouds, 10 cm above the ground, in cells of {:.2f} m; "
+     "buildings, plants and what the designs place cast their shadows, people and cars do not. Lines are "
+     "walls 1 m above the ground and the outlines of what is placed. North is up.",
+     "Heures de soleil direct au sol le {}, sans nuages, à 10 cm du sol, par mailles de {:.2f} m ; les "
+     "bâtiments, les plantes et ce que placent les projets font ombre, les passants et les voitures non. "
+     "Les lignes sont les murs à 1 m du sol et les contours de ce qui est placé. Le nord est en haut."},
+    {"Before and after: ", "Avant et après : "},
+    {"Plan of what changes", "Plan de ce qui change"},
+    {"Hours of sun", "Heures de soleil"},
+    {"Mean hours of sun per day", "Heures de soleil par jour, moyenne"},
+    {"Ground with {:g} hours or more", "Sol ayant {:g} heures ou plus"},
+    {"Ground that loses an hour or more", "Sol qui perd une heure ou plus"},
+    {"Ground that gains an hour or more", "Sol qui gagne une heure ou plus"},
+    {"Ground in all, without what is built", "Sol en tout, sans ce qui est bâti"},
+    {"January", "janvier"},
+    {"February", "février"},
+    {"March", "mars"},
+    {"April", "avril"},
+    {"May", "mai"},
+    {"June", "juin"},
+    {"July", "juillet"},
+    {"August", "août"},
+    {"September", "septembre"},
+    {"October", "octobre"},
+    {"November", "novembre"},
+    {"December", "décembre"},
 });
 
 }  // namespace
+
+std::span<const std::pair<std::string_view, std::string_view>> french_words() { return french; }
 
 Language language_of(std::string_view locale) {
   return locale.starts_with("fr") ? Language::french : Language::english;
@@ -202,4 +280,9 @@ std::string in_language(std::string_view english, Language language) {
   return std::string(found == words.end() ? english : found->second);
 }
 
-}  // namespace parvis::planner
+Words words_in(Language language) {
+  if (language == Language::english) return {};
+  return {[](std::string_view english) { return in_language(english, Language::french); }};
+}
+
+}  // namespace parvis::design
