@@ -252,7 +252,7 @@ void Panel::draw_statistics(Visit& visit, const FrameStatistics& statistics) {
   }
   if (statistics.passes().empty()) rows_.remark("None has been timed yet.");
   if (draws_on_processor_)
-    rows_.remark("This is a software driver, which puts work off: read the times as rough.");
+    rows_.remark("Software driver: of one frame in sixteen, by the clock.");
 
   const render::DrawStatistics& drawn = visit.stage().renderer().statistics();
   rows_.heading("Main view");

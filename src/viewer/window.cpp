@@ -230,6 +230,8 @@ class Frames {
     if (frames < 1) return;
     fmt::print("{} frames, once settled {:.2f} per second; the last one drew {:.0f} % of its pixels\n",
                frames, frames / seconds, 100.0 * visit_.stage().drawn_share());
+    for (const gl::PassTime& pass : visit_.stage().pass_times().latest())
+      fmt::print("  {}: {:.0f} ms\n", pass.name, 1e3 * pass.seconds);
   }
 
   /// Says in the window's title how far the picture at rest is refined.

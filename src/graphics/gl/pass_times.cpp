@@ -1,8 +1,24 @@
 #include "graphics/gl/pass_times.h"
 
+#include <utility>
+
+#include "graphics/gl/context.h"
+
 namespace parvis::gl {
 
+using Clock = std::chrono::steady_clock;
+
+void PassTimes::begin_waiting_frame() {
+  if (is_timed_ && !waited_.empty()) latest_ = std::exchange(waited_, {});
+  is_timed_ = frame_++ % timed_every == 0;
+  if (!is_timed_) return;
+  glFinish();
+  pass_began_ = Clock::now();
+}
+
 void PassTimes::begin_frame() {
+  if (!waits_) waits_ = is_software();
+  if (*waits_) return begin_waiting_frame();
   frames_[current_].is_waiting = !frames_[current_].names.empty();
   current_ = (current_ + 1) % frames_.size();
   for (std::size_t age = 0; age < frames_.size(); ++age)  // the oldest first
@@ -13,6 +29,14 @@ void PassTimes::begin_frame() {
 }
 
 void PassTimes::end_pass(std::string name) {
+  if (waits_.value_or(false)) {
+    if (!is_timed_) return;
+    glFinish();
+    const Clock::time_point now = Clock::now();
+    waited_.push_back({std::move(name), std::chrono::duration<double>(now - pass_began_).count()});
+    pass_began_ = now;
+    return;
+  }
   frames_[current_].names.push_back(std::move(name));
   stamp();
 }
