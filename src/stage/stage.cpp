@@ -152,7 +152,7 @@ void Stage::follow_clock(double frame_ms) {
   for (const gl::PassTime& pass : pass_times_.latest())
     (pass.name == "reflections" ? update_ms : rest_ms) += 1e3 * pass.seconds;
   if (pass_times_.latest().empty()) return;
-  const bool goes_by_frames = gl::is_software() && held_ms_ > 0.0;
+  const bool goes_by_frames = holds_rate_by_pixels();
   if (!goes_by_frames) reflections_->frame_took(update_ms, rest_ms);
   constexpr double held_share = 0.93;  // of a held frame's time: frames differ, and all of them count
   const double own_ms = double(methods::settings(simulation_.scene).budget_ms),
@@ -164,6 +164,9 @@ void Stage::follow_clock(double frame_ms) {
   constexpr double reflections_share = 0.3;  // of a held frame
   reflections_->hold(held_ms > 0.0 && scale_.is_smallest() ? reflections_share * budget_ms : own_ms);
 }
+
+/// Then pictures in motion have one sample per pixel: a GPU has several for little.
+bool Stage::holds_rate_by_pixels() const { return held_ms_ > 0.0 && gl::is_software(); }
 
 double Stage::drawn_share() const {
   return double(renderer_->width()) * double(renderer_->height()) / (double(width_) * double(height_));
@@ -182,7 +185,7 @@ void Stage::draw_held(const Camera& camera, int width, int height, const std::ve
   const bool is_below_known = std::exchange(below_held_, hash.value()) == hash.value();
   if (!is_below_known) {
     is_held_frame_kept_ = false;
-    draw(camera, size, scale_.drawn_size(width, height), &shown);
+    draw(camera, size, scale_.drawn_size(width, height), &shown, holds_rate_by_pixels());
   } else if (!is_held_frame_kept_) {
     draw(camera, size, size, &shown);
     renderer_->keep_main_view();
@@ -197,7 +200,7 @@ void Stage::draw_held(const Camera& camera, int width, int height, const std::ve
 }
 
 void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn,
-                 const std::vector<std::uint8_t>* shown) {
+                 const std::vector<std::uint8_t>* shown, bool has_one_sample) {
   end_refinement();
   below_held_ = 0;
   if (has_new_mirrors() || methods::settings(simulation_.scene) != shown_reflection_)
@@ -207,6 +210,7 @@ void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn,
   drawn_from_ = camera;
   adapt_to(camera);
   pass_times_.begin_frame();
+  renderer_->set_one_sample(has_one_sample);
   render::FrameSteps steps;
   steps.shown_objects = shown;
   steps.end_pass = [&](const char* pass) { pass_times_.end_pass(pass); };
@@ -220,7 +224,8 @@ void Stage::refine(const Camera& camera, int width, int height) {
   if (!refinement_) {
     const glm::ivec2 size(width, height);
     reflections_->hold(double(methods::settings(simulation_.scene).budget_ms));
-    if (size != glm::ivec2(renderer_->width(), renderer_->height())) return draw(camera, size, size);
+    if (renderer_->has_one_sample() || size != glm::ivec2(renderer_->width(), renderer_->height()))
+      return draw(camera, size, size);
     if (has_lines) return;
     refinement_ = std::make_unique<Refinement>(*kept_rays_, simulation_.scene, renderer_->sky(),
                                                renderer_->drawn_light(), camera, width, height,

@@ -107,7 +107,7 @@ class Stage {
   /// Renders the present frame: shadows, reflections, picture. Applies the changes of scenarios and messages
   /// first.
   void draw(const Camera& camera, int width, int height) {
-    draw(camera, {width, height}, scale_.drawn_size(width, height));
+    draw(camera, {width, height}, scale_.drawn_size(width, height), nullptr, holds_rate_by_pixels());
   }
 
   /// Replaces `draw` while a person holds things: draws the frame without the objects and things that `shown`
@@ -150,7 +150,8 @@ class Stage {
   Stage(Simulation simulation, std::unique_ptr<render::Renderer> renderer,
         std::unique_ptr<realism::EdgeLines> lines, ShownRadiance refined);
   void draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn,
-            const std::vector<std::uint8_t>* shown = nullptr);
+            const std::vector<std::uint8_t>* shown = nullptr, bool has_one_sample = false);
+  bool holds_rate_by_pixels() const;
 
   Simulation simulation_;
   std::unique_ptr<render::Renderer> renderer_;

@@ -251,8 +251,7 @@ void Panel::draw_statistics(Visit& visit, const FrameStatistics& statistics) {
     ImGui::ProgressBar(float(pass.seconds / longest_s), {-FLT_MIN, 3.0f * imgui_.scale()}, "");
   }
   if (statistics.passes().empty()) rows_.remark("None has been timed yet.");
-  if (draws_on_processor_)
-    rows_.remark("Software driver: of one frame in sixteen, by the clock.");
+  if (draws_on_processor_) rows_.remark("Software driver: of one frame in sixteen, by the clock.");
 
   const render::DrawStatistics& drawn = visit.stage().renderer().statistics();
   rows_.heading("Main view");

@@ -1,5 +1,5 @@
-// How long each pass of a frame takes: on a GPU by time stamps that are read when they have come, frames later,
-// so that nothing waits for them; on a software driver by the clock.
+// How long each pass of a frame takes: on a GPU by time stamps that are read when they have come, frames
+// later, so that nothing waits for them; on a software driver by the clock.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ struct PassTime {
   double seconds = 0.0;
 };
 
-/// A frame is begin_frame, then end_pass after each of its passes. Software drivers put off the work of a pass,
-/// and their stamps count a part of it: there each pass of one frame in `timed_every` is waited for.
+/// A frame is begin_frame, then end_pass after each of its passes. Software drivers put off the work of a
+/// pass, and their stamps count a part of it: there each pass of one frame in `timed_every` is waited for.
 class PassTimes {
  public:
   static constexpr int timed_every = 16;

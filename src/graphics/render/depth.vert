@@ -13,6 +13,8 @@ out vec2 uv;
 out float colour_alpha;
 flat out uint object_of_fragment;
 
+invariant gl_Position;  // as in surface.vert, which draws over these depths
+
 void main() {
   vec4 p = vec4(mesh_position, 1.0f);
   vec3 world = vec3(dot(world_from_mesh_row0, p), dot(world_from_mesh_row1, p), dot(world_from_mesh_row2, p));

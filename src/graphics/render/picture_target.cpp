@@ -1,5 +1,9 @@
 #include "graphics/render/picture_target.h"
 
+#include <array>
+#include <cassert>
+#include <glm/vector_relational.hpp>
+
 #include "graphics/shading/realism.h"
 
 namespace parvis::render {
@@ -20,45 +24,56 @@ gl::Framebuffer framebuffer_of(const gl::Texture& colour) {
 }  // namespace
 
 Result<PictureTarget> PictureTarget::create() {
-  Result<gl::Program> resolve =
-      gl::Program::create("graphics/render/whole_screen.vert", "graphics/render/resolve.frag");
-  if (!resolve) return resolve.errors();
-  Result<gl::Program> display =
-      gl::Program::create("graphics/render/whole_screen.vert", "graphics/render/display.frag");
-  if (!display) return display.errors();
-  return PictureTarget(*std::move(resolve), *std::move(display));
+  std::array<gl::Program, 3> programs;
+  for (std::size_t i = 0; const char* const shader : {"resolve", "smooth_edges", "display"}) {
+    Result<gl::Program> program = gl::Program::create("graphics/render/whole_screen.vert",
+                                                      fmt::format("graphics/render/{}.frag", shader));
+    if (!program) return program.errors();
+    programs[i++] = *std::move(program);
+  }
+  return PictureTarget(std::move(programs[0]), std::move(programs[1]), std::move(programs[2]));
 }
 
-PictureTarget::PictureTarget(gl::Program resolve, gl::Program display)
-    : resolve_(std::move(resolve)), display_(std::move(display)) {}
+PictureTarget::PictureTarget(gl::Program resolve, gl::Program smooth, gl::Program display)
+    : resolve_(std::move(resolve)), smooth_(std::move(smooth)), display_(std::move(display)) {}
 
-void PictureTarget::resize(int width, int height) {
-  width_ = width, height_ = height;
-  if (width <= room_.x && height <= room_.y) return;
-  room_ = glm::max(room_, glm::ivec2(width, height));
-  samples_ = multisampled_texture(GL_RGBA16F, room_.x, room_.y);
-  sample_depth_ = multisampled_texture(GL_DEPTH_COMPONENT32F, room_.x, room_.y);
-  radiance_ = gl::texture_2d(GL_RGBA16F, room_.x, room_.y);
-  picture_ = gl::texture_2d(GL_RGBA8, room_.x, room_.y);
-  multisampled_ = framebuffer_of(samples_);
-  glNamedFramebufferTexture(multisampled_.name(), GL_DEPTH_ATTACHMENT, sample_depth_.name(), 0);
-  resolved_ = framebuffer_of(radiance_);
-  displayed_ = framebuffer_of(picture_);
+void PictureTarget::resize(int width, int height, bool has_one_sample) {
+  width_ = width, height_ = height, has_one_sample_ = has_one_sample;
+  const glm::ivec2 size(width, height);
+  if (glm::any(glm::greaterThan(size, room_))) {
+    room_ = glm::max(room_, size);
+    radiance_ = gl::texture_2d(GL_RGBA16F, room_.x, room_.y);
+    picture_ = gl::texture_2d(GL_RGBA8, room_.x, room_.y);
+    resolved_ = framebuffer_of(radiance_);
+    displayed_ = framebuffer_of(picture_);
+  }
+  Samples& drawn = has_one_sample ? single_ : multiple_;
+  if (glm::any(glm::greaterThan(size, drawn.room))) {
+    const auto texture = has_one_sample
+                             ? [](GLenum format, int w, int h) { return gl::texture_2d(format, w, h); }
+                             : multisampled_texture;
+    drawn.room = glm::max(drawn.room, size);
+    drawn.colour = texture(GL_RGBA16F, drawn.room.x, drawn.room.y);
+    drawn.depth = texture(GL_DEPTH_COMPONENT32F, drawn.room.x, drawn.room.y);
+    drawn.framebuffer = framebuffer_of(drawn.colour);
+    glNamedFramebufferTexture(drawn.framebuffer.name(), GL_DEPTH_ATTACHMENT, drawn.depth.name(), 0);
+  }
 }
 
 void PictureTarget::keep() {
-  if (kept_room_ != room_) {
-    kept_room_ = room_;
-    kept_samples_ = multisampled_texture(GL_RGBA16F, room_.x, room_.y);
-    kept_depth_ = multisampled_texture(GL_DEPTH_COMPONENT32F, room_.x, room_.y);
+  assert(!has_one_sample_);
+  if (kept_.room != multiple_.room) {
+    kept_.room = multiple_.room;
+    kept_.colour = multisampled_texture(GL_RGBA16F, kept_.room.x, kept_.room.y);
+    kept_.depth = multisampled_texture(GL_DEPTH_COMPONENT32F, kept_.room.x, kept_.room.y);
   }
-  copy(samples_, kept_samples_);
-  copy(sample_depth_, kept_depth_);
+  copy(multiple_.colour, kept_.colour);
+  copy(multiple_.depth, kept_.depth);
 }
 
 void PictureTarget::restore() {
-  copy(kept_samples_, samples_);
-  copy(kept_depth_, sample_depth_);
+  copy(kept_.colour, multiple_.colour);
+  copy(kept_.depth, multiple_.depth);
 }
 
 void PictureTarget::copy(const gl::Texture& from, const gl::Texture& to) const {
@@ -67,13 +82,16 @@ void PictureTarget::copy(const gl::Texture& from, const gl::Texture& to) const {
 }
 
 void PictureTarget::set_realism(float level) {
-  resolve_.set("has_ink", int(shading::ink_at(level) > 0.0f));
+  for (gl::Program* program : {&resolve_, &smooth_})
+    program->set("has_ink", int(shading::ink_at(level) > 0.0f));
   display_.set("paper_share", shading::realism_at(level).w);
 }
 
 void PictureTarget::resolve(float exposure) {
-  resolve_.set("exposure", exposure);
-  screen_.draw(resolve_, resolved_.name(), {width_, height_}, samples_.name());
+  gl::Program& program = has_one_sample_ ? smooth_ : resolve_;
+  program.set("exposure", exposure);
+  if (has_one_sample_) program.set("drawn", glm::vec2(float(width_), float(height_)));
+  screen_.draw(program, resolved_.name(), {width_, height_}, samples().colour.name());
 }
 
 void PictureTarget::display(GLuint framebuffer, glm::ivec2 size, float exposure) const {

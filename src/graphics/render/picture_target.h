@@ -1,4 +1,5 @@
-// Main render target: 4x MSAA, resolved to linear radiance, then tone-mapped.
+// Main render target: 4x MSAA, or one sample per pixel with smoothed edges; resolved to linear radiance, then
+// tone-mapped.
 #pragma once
 
 #include <algorithm>
@@ -21,22 +22,24 @@ class PictureTarget {
   /// Compiles the resolve and tone-mapping shaders; fails only if one does not compile.
   static Result<PictureTarget> create();
 
-  /// Sets the size in pixels. Textures grow and never shrink, so a size that changes from frame to frame
-  /// allocates nothing.
-  void resize(int width, int height);
+  /// Sets the size in pixels, and whether a pixel has one sample or `samples_per_pixel`. Textures grow and
+  /// never shrink, so a size that changes from frame to frame allocates nothing.
+  void resize(int width, int height, bool has_one_sample = false);
   int width() const { return width_; }    ///< pixels in use; the textures may be larger
   int height() const { return height_; }  ///< pixels in use
 
-  /// Framebuffer to draw into: RGBA16F and depth, multisampled.
-  GLuint framebuffer() const { return multisampled_.name(); }
+  bool has_one_sample() const { return has_one_sample_; }
+
+  /// Framebuffer to draw into: RGBA16F and depth.
+  GLuint framebuffer() const { return samples().framebuffer.name(); }
   /// Where a picture stands between a sketch and a photograph (scene::Realism), from the next `resolve` on.
   void set_realism(float level);
-  /// Keeps the samples as they are, for `restore`.
+  /// Keeps the samples as they are, for `restore`; of multisampled pictures alone.
   void keep();
   /// Makes the samples what they were when they were kept, in this size.
   void restore();
   /// Resolves the samples to one linear radiance per pixel, each sample weighted by shading::sample_weight at
-  /// this exposure.
+  /// this exposure. Where a pixel has one sample, edges are smoothed along themselves (Lottes 2009, FXAA).
   void resolve(float exposure);
   /// Tone-maps into the first `size` pixels of a framebuffer, enlarging where `size` exceeds the render
   /// target.
@@ -50,17 +53,24 @@ class PictureTarget {
   ImageF read_radiance() const;               ///< resolved linear RGBA, before exposure, top row first
 
  private:
-  PictureTarget(gl::Program resolve, gl::Program display);
+  struct Samples {
+    glm::ivec2 room{0};  ///< of the textures
+    gl::Texture colour, depth;
+    gl::Framebuffer framebuffer;
+  };
+
+  PictureTarget(gl::Program resolve, gl::Program smooth, gl::Program display);
+  const Samples& samples() const { return has_one_sample_ ? single_ : multiple_; }
   void copy(const gl::Texture& from, const gl::Texture& to) const;
 
   int width_ = 0, height_ = 0;
+  bool has_one_sample_ = false;
   glm::ivec2 room_{0};  ///< of the textures
-  gl::Program resolve_, display_;
+  gl::Program resolve_, smooth_, display_;
   WholeScreen screen_;
-  gl::Texture samples_, sample_depth_, radiance_, picture_;
-  gl::Texture kept_samples_, kept_depth_;  ///< none before `keep`
-  glm::ivec2 kept_room_{0};
-  gl::Framebuffer multisampled_, resolved_, displayed_;
+  Samples multiple_, single_, kept_;  ///< allocated when they are first needed
+  gl::Texture radiance_, picture_;
+  gl::Framebuffer resolved_, displayed_;
 };
 
 /// Reverses the rows of an image: OpenGL reads back the bottom row first.

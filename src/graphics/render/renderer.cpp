@@ -236,8 +236,9 @@ Status Renderer::reserve_eyes(std::size_t count) {
 
 void Renderer::prepare_main_view(const Camera& camera, int width, int height, Subjects subjects,
                                  const std::vector<std::uint8_t>* shown_objects) {
-  target().resize(width, height);
+  target().resize(width, height, has_one_sample_);
   main_view_ = camera_view(camera, target().framebuffer(), width, height);
+  main_view_.has_one_sample = has_one_sample_;
   main_view_.culls_hidden = !shown_objects;  // static occluders hide things though they are left out
   main_view_.subjects = subjects;
   main_view_.shown_objects = shown_objects;

@@ -48,6 +48,10 @@ class Renderer {
   void begin_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, true); }
   /// The same for pictures of the static scene: dynamic objects cast no shadow.
   void begin_still_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, false); }
+  /// From the next main view that is prepared on: one sample per pixel, for pictures in motion, whose hidden
+  /// surfaces a software renderer then leaves out; else `samples_per_pixel`.
+  void set_one_sample(bool has_one_sample) { has_one_sample_ = has_one_sample; }
+  bool has_one_sample() const { return target().has_one_sample(); }  ///< of the main view as prepared last
   /// Makes targets for so many eyes (frame_views.h); fails only if a shader does.
   Status reserve_eyes(std::size_t count);
   /// The eye whose main view is prepared, drawn, displayed and read from now on: below the count reserved.
@@ -59,7 +63,7 @@ class Renderer {
   /// Indices of the scene objects in the main view, ascending.
   const std::vector<int>& visible_objects() const { return scene_.visible_objects(); }
   const View& main_view() const { return main_view_; }  ///< of the selected eye, as prepared last
-  /// Draws the prepared main view, four samples per pixel.
+  /// Draws the prepared main view, with `samples_per_pixel` or one.
   void draw_main_view();
   /// Keeps the main view as drawn, for `draw_over`.
   void keep_main_view() { target().keep(); }
@@ -125,8 +129,9 @@ class Renderer {
 
   std::unique_ptr<LightSource> light_;
   float exposure_ = 1.0f;
-  float realism_ = 1.0f;    ///< scene::Realism
-  double budget_ms_ = 0.0;  ///< of a frame; 0: none
+  float realism_ = 1.0f;         ///< scene::Realism
+  double budget_ms_ = 0.0;       ///< of a frame; 0: none
+  bool has_one_sample_ = false;  ///< of the next main view
   int fixed_changes_ = 0;
   int frames_begun_ = 0;
   SceneDrawable scene_;

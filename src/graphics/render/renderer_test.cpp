@@ -534,6 +534,50 @@ TEST_F(RendererTest, APlaceWithSunAndShadowIsGolden) {
   EXPECT_TRUE(status) << to_string(status.errors());
 }
 
+/// Away from edges the same surfaces in the same light, none left out by the depths that are drawn first;
+/// along them no steps: a tilted edge of light on dark takes values between.
+TEST_F(RendererTest, OneSampleShowsTheSameWithSmoothEdges) {
+  scene::Scene scene;
+  scene.sun.direction_to_sun = glm::normalize(glm::vec3(0.3f, -0.5f, 0.8f));
+  add(scene, model_of(ground(40), matt(glm::vec3(0.02f))));
+  add(scene, model_of(quad({-6, 3, 0}, {6, 4, 0}, {6, 4.6f, 9}, {-6, 3, 7}), matt(glm::vec3(0.8f))));
+  for (int i = 0; i < 40; ++i)
+    add(scene, model_of(sphere({-5.0f + 0.25f * float(i), 1.5f + 0.3f * float(i % 5), 0.5f}, 0.5f),
+                        matt({0.1f, 0.02f * float(i), 0.5f})));
+  const auto renderer = renderer_of(scene);
+  Camera camera;
+  camera.world_from_camera = look_at({0, -9, 3}, {0, 2, 2.5f});
+  constexpr int width = 320, height = 240, reach = 5;  // that of smoothing, and more
+  draw(*renderer, scene, camera, width, height);
+  const Image8 usual = renderer->read_picture(1.0f);
+  renderer->set_one_sample(true);
+  draw(*renderer, scene, camera, width, height);
+  ASSERT_TRUE(renderer->has_one_sample());
+  const Image8 smooth = renderer->read_picture(1.0f);
+  int flat = 0, other = 0, edges = 0, stepped = 0;
+  for (int y = reach; y < height - reach; ++y)
+    for (int x = reach; x < width - reach; ++x) {
+      int least = 255, most = 0;
+      for (int dy = -reach; dy <= reach; ++dy)
+        for (int dx = -reach; dx <= reach; ++dx)
+          least = std::min<int>(least, usual.at(x + dx, y + dy)[1]),
+          most = std::max<int>(most, usual.at(x + dx, y + dy)[1]);
+      const int difference = std::abs(int(usual.at(x, y)[1]) - int(smooth.at(x, y)[1]));
+      if (most - least < 12) {
+        ++flat, other += difference > 10;  // it is no other surface
+      } else if (most - least > 100) {
+        ++edges, stepped += difference > 60;
+      }
+    }
+  EXPECT_GT(flat, width * height / 4);
+  EXPECT_EQ(other, 0);
+  EXPECT_GT(edges, 200);
+  EXPECT_LT(stepped, edges / 6);
+  renderer->set_one_sample(false);
+  draw(*renderer, scene, camera, width, height);
+  EXPECT_EQ(renderer->read_picture(1.0f).pixels, usual.pixels);
+}
+
 TEST_F(RendererTest, ADynamicThingFarAwayTakesFewerTrianglesAndLooksTheSame) {
   scene::Scene scene;
   add(scene, model_of(sphere({0, 0, 0}, 1.0f, 100), matt(glm::vec3(0.6f))), true);

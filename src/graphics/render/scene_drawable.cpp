@@ -277,7 +277,8 @@ const gl::Program& SceneDrawable::program_for(const View& view, const Batch& bat
   if (view.kind == ViewKind::mirrors)
     return view.surface_programs->of(gpu_.materials()[std::size_t(batch.material)], false);
   const SurfacePrograms& programs = batch.mirror_object >= 0 ? *reflection_->programs_ : programs_.surface;
-  return programs.of(gpu_.materials()[std::size_t(batch.material)], view.kind == ViewKind::main);
+  return programs.of(gpu_.materials()[std::size_t(batch.material)],
+                     view.kind == ViewKind::main && !view.has_one_sample);
 }
 
 void SceneDrawable::draw(const View& view, Pass pass) {
@@ -290,6 +291,12 @@ void SceneDrawable::draw(const View& view, Pass pass) {
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, list.command_store.name());
   if (view.kind == ViewKind::shadow && pass == Pass::opaque) return draw_depth(list);
 
+  if (view.has_one_sample &&
+      pass == Pass::opaque) {  // then hidden surfaces are not shaded: see the experiment
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    draw_depth(list);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
   gpu_.bind_vertex_light();
   const gl::Program* current = nullptr;
   for (const Batch& batch : batches) {

@@ -50,7 +50,8 @@ struct View {
   int excluded_object = -1;  ///< a reflector does not draw into its own surroundings
   /// Items of GpuScene to leave out: parts of objects that do not see themselves.
   std::span<const std::uint32_t> left_out_items;
-  bool shows_glass = true;  ///< includes refracting materials
+  bool shows_glass = true;      ///< includes refracting materials
+  bool has_one_sample = false;  ///< a main view with one sample per pixel in place of samples_per_pixel
   Subjects subjects = Subjects::all;
   VirtualVertices* virtual_vertices = nullptr;  ///< of a mirrored view
   /// Programs of a view of mirrors for GpuScene::mirror_materials().

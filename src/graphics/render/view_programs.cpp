@@ -29,7 +29,7 @@ const gl::Program* ViewPrograms::use(const View& view) const {
   const gl::Program* program = nullptr;
   switch (view.kind) {
     case ViewKind::main:
-      program = &many_samples_;
+      program = view.has_one_sample ? &one_sample_ : &many_samples_;
       break;
     case ViewKind::cube_face:
       program = &one_sample_;
