@@ -250,7 +250,7 @@ void compare_lines(const BenchSetup& setup, Report& report) {
     const glm::mat4 clip = camera.clip_from_camera(float(width) / float(height)) * camera.camera_from_world();
     std::vector<glm::vec2> shown, aside;
     for (const SceneEdge& edge : edges) {
-      const int steps = int(glm::distance(edge.from, edge.to) / 0.004f);
+      const int steps = int(glm::distance(edge.from, edge.to) / 0.001f);
       for (int i = 0; i <= steps; ++i) {
         const glm::vec3 place = glm::mix(edge.from, edge.to, float(i) / float(steps));
         const auto pixel_of = [&](glm::vec3 p) {

@@ -6,6 +6,7 @@
 #include "base/test_data.h"
 #include "bench/parts.h"
 #include "formats/drawings/drawing_reader.h"
+#include "planning/design/design_nodes.h"
 #include "planning/plan_drawing/plan_files.h"
 
 namespace parvis::bench {
@@ -15,8 +16,9 @@ namespace {
 std::optional<double> readers_error_mm(const std::filesystem::path& dxf,
                                        const std::filesystem::path& points) {
   const std::string command =
-      fmt::format("'{}' '{}' '{}' 2> /dev/null", (source_folder() / "script" / "dxf_readers_agree").string(),
-                  dxf.string(), points.string());
+      fmt::format("'{}' '{}' '{}' 2> /dev/null",
+                  (std::filesystem::current_path() / "script" / "dxf_readers_agree").string(), dxf.string(),
+                  points.string());
   std::FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) return std::nullopt;
   double error_mm = 0.0;
@@ -29,7 +31,7 @@ std::optional<double> readers_error_mm(const std::filesystem::path& dxf,
 }
 
 void measure_export(const BenchSetup& setup, Report& report) {
-  const stage::Simulation simulation = setup.simulation(source_folder() / "scenes" / "planned_square.xp");
+  const stage::Simulation simulation = setup.simulation(std::filesystem::path("scenes/planned_square.xp"));
   plan_drawing::ScenePlan plan = plan_drawing::plan_of(
       simulation.scene, design::placed_objects(simulation.scene, simulation.live(), "", true));
   double largest_mm = 0.0, largest_aside_mm = 0.0;
@@ -63,7 +65,7 @@ void measure_export(const BenchSetup& setup, Report& report) {
 }
 
 void measure_given(Report& report) {
-  const auto folder = shared_data("plan");
+  const auto folder = shared_data("plan", std::filesystem::current_path());
   if (!folder) return report.skip("given_drawings_mm", "the drawings ../shared/data/plan are not here");
   const nlohmann::json cases = nlohmann::json::parse(std::ifstream(*folder / "expected.json"));
   double largest_mm = 0.0, in_its_unit_mm = 0.0;

@@ -34,8 +34,9 @@ void main() {
   const float nearest = 0.05f;  // of the eye's depth, for lines that go past it
   // Depth is reversed. A line lies before the faces of its edge over all of its width and hardly more, or it
   // would show through what it goes into.
-  const float before = 1.0002f, most_before = 1.0025f;
-  const float outline_px = 1.7f, crease_px = 1.05f;  // in a picture 720 pixels high
+  const float before = 1.0001f, max_before = 1.0025f;
+  const float over_end = 0.6f;  // of half the width: lines that meet leave no gap, and none sticks out
+  const float outline_px = 1.4f, crease_px = 1.05f;  // in a picture 720 pixels high
   vec3 to_eye = eye_in_mesh.xyz - edge_from;
   float side = dot(edge_normal.xyz, to_eye), other_side = dot(edge_other_normal.xyz, to_eye);
   bool has_one_face = edge_normal.xyz == edge_other_normal.xyz;
@@ -56,9 +57,9 @@ void main() {
   float width_px = (is_outline ? outline_px : crease_px) * max(frame_size.y / 720.0f, 0.75f);
   bool is_end = (gl_VertexID & 1) != 0;
   vec4 end = is_end ? b : a;
-  vec2 shift_px =
-      0.5f * width_px *
-      ((is_end ? along : -along) + ((gl_VertexID & 2) != 0 ? 1.0f : -1.0f) * vec2(-along.y, along.x));
+  vec2 shift_px = 0.5f * width_px *
+                  (over_end * (is_end ? along : -along) +
+                   ((gl_VertexID & 2) != 0 ? 1.0f : -1.0f) * vec2(-along.y, along.x));
   vec2 shift = shift_px / half_size;
   vec3 along_edge = edge_to - edge_from;
   vec3 reach = 0.01f * length(to_eye) / max(length(along_edge), 1e-9f) * along_edge;  // metres
@@ -67,7 +68,7 @@ void main() {
   float nearer = max(change_of_depth(a, b, inside, shift), change_of_depth(a, b, other_inside, shift));
   float depth = end.z / end.w;
   end.xy += shift * end.w;
-  end.z = end.w * clamp(depth * before + max(nearer, 0.0f), depth * before, depth * most_before);
+  end.z = end.w * clamp(depth * before + max(nearer, 0.0f), depth * before, depth * max_before);
   gl_Position = end;
   // Far lines are thinner than a pen draws: they have less ink.
   float distance_m = min(a.w, b.w);

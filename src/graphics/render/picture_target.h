@@ -28,7 +28,7 @@ class PictureTarget {
   int width() const { return width_; }    ///< pixels in use; the textures may be larger
   int height() const { return height_; }  ///< pixels in use
 
-  bool has_one_sample() const { return has_one_sample_; }
+  bool has_one_sample() const { return has_one_sample_; }  ///< per pixel
 
   /// Framebuffer to draw into: RGBA16F and depth.
   GLuint framebuffer() const { return samples().framebuffer.name(); }

@@ -48,8 +48,8 @@ class Renderer {
   void begin_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, true); }
   /// The same for pictures of the static scene: dynamic objects cast no shadow.
   void begin_still_frame(const scene::Scene& scene, const Camera& camera) { begin(scene, camera, false); }
-  /// From the next main view that is prepared on: one sample per pixel, for pictures in motion, whose hidden
-  /// surfaces a software renderer then leaves out; else `samples_per_pixel`.
+  /// Main views that are prepared from now on have one sample per pixel, for pictures in motion, whose hidden
+  /// surfaces a software renderer then leaves out; else they have `samples_per_pixel`.
   void set_one_sample(bool has_one_sample) { has_one_sample_ = has_one_sample; }
   bool has_one_sample() const { return target().has_one_sample(); }  ///< of the main view as prepared last
   /// Makes targets for so many eyes (frame_views.h); fails only if a shader does.

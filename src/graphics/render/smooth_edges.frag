@@ -25,7 +25,7 @@ vec4 mean_of(vec2 a, vec2 b) {
 }
 
 void main() {
-  const float longest = 8.0f, least_step = 1.0f / 24.0f, level_step = 1.0f / 8.0f, lone = 1.4f;
+  const float longest = 8.0f, min_step = 1.0f / 24.0f, level_step = 1.0f / 8.0f, lone = 1.4f;
   vec2 at = gl_FragCoord.xy;
   vec4 here = sample_at(at);
   float middle = brightness(here);
@@ -39,7 +39,7 @@ void main() {
                      max(brightness(sample_at(at + step.yx)), brightness(sample_at(at - step.yx))));
   if (middle > lone * beside) {
     smoothed = 0.5f * (mean_of(at + step, at - step) + mean_of(at + step.yx, at - step.yx));
-  } else if (most - least > max(least_step, level_step * most)) {
+  } else if (most - least > max(min_step, level_step * most)) {
     vec2 along = vec2(sw + se - nw - ne, ne + se - nw - sw);
     along /= min(abs(along.x), abs(along.y)) + max((nw + ne + sw + se) / 32.0f, 1.0f / 128.0f);
     along = clamp(along, vec2(-longest), vec2(longest));
