@@ -351,6 +351,18 @@ class Reflections(BeforeAMirror):
             self.assertIn("rendered again", told)
             self.assertEqual(middle, right)
 
+    def test_a_square_is_written_and_right(self):
+        square = self.folder / "square"
+        self.assertEqual(run("city", "square", "-o", square).returncode, 0)
+        for script in ["place.xp", "square.xp"]:
+            done = run("check", square / script)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("Orange trees, without cars", done.stdout)
+        picture = self.folder / "fountain.png"
+        done = run("render", square / "place.xp", *SIZE, "-o", picture)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(picture.exists())
+
     def test_a_kitchen_of_mirrors_is_written_and_drawn(self):
         kitchen = self.folder / "kitchen"
         self.assertEqual(run("city", "kitchen", "-o", kitchen).returncode, 0)

@@ -1,0 +1,20 @@
+// An arcaded square in the spirit of Place Garibaldi in Nice: ochre facades in relief over arcades, a statue
+// in a fountain, paving, streets that lead out, a tram line and traffic.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "base/result.h"
+#include "scene/data/model.h"
+
+namespace parvis::square {
+
+/// Houses and ground, with their materials.
+scene::Model make_square(std::uint64_t seed);
+
+/// Writes the scripts `place.xp` (what stands still) and `square.xp` (all of it), models, textures and the
+/// sky into `folder`, as write_paper_city does.
+Status write_square(const std::filesystem::path& folder, std::uint64_t seed);
+
+}  // namespace parvis::square
