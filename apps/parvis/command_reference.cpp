@@ -4,6 +4,7 @@
 
 #include "base/image_io.h"
 #include "commands.h"
+#include "display_arguments.h"
 #include "graphics/shading/tone_curve.h"
 #include "interruption.h"
 #include "machines/processes.h"
@@ -25,6 +26,7 @@ struct ReferenceArguments : SceneArguments {
   std::vector<float> circle;  // target x y z, radius, eye above it, count
   float circle_fov_deg = 50.0f;
   stage::PhotographJob job;
+  DisplayArguments walls;
 
   void add_photograph(CLI::App& command);
 };
@@ -64,6 +66,34 @@ Status trace(const ReferenceArguments& arguments) {
       (*stage)->trace(*camera, width, height, arguments.samples.value_or(truth_samples), *processes);
   if (processes->is_first())
     if (Status status = write_traced(arguments, traced, (*stage)->scene().exposure); !status) return status;
+  processes->leave();
+  return Ok{};
+}
+
+/// Each wall of a display, and each eye.
+Status trace_walls(const ReferenceArguments& arguments) {
+  const Result<display::Display> display = arguments.walls.read();
+  if (!display) return display.errors();
+  if (Status status = arguments.expect_one_scenario(); !status) return status;
+  if (arguments.cameras.size() > 1 || arguments.outputs.size() > 1)
+    return error("--display: one --camera and one folder for --output");
+  const Result<machines::Processes> processes = machines::Processes::join();
+  if (!processes) return processes.errors();
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  const Result<std::unique_ptr<stage::Stage>> stage = arguments.open_stage();
+  if (!stage) return stage.errors();
+  const Result<Camera> camera = (*stage)->camera(arguments.cameras.empty() ? "" : arguments.cameras.front());
+  if (!camera) return camera.errors();
+  const std::vector<display::WallPicture> pictures =
+      display::pictures_of(*display, arguments.walls.head(*display), *camera);
+  Result<display::Screens> screens = display::Screens::create(*display, pictures);
+  if (!screens) return screens.errors();
+  stage::trace_walls(**stage, *display, pictures, arguments.samples.value_or(truth_samples), *processes,
+                     *screens);
+  if (processes->is_first())
+    if (Status status = stage::write_walls(*display, pictures, *screens, arguments.outputs.front()); !status)
+      return status;
   processes->leave();
   return Ok{};
 }
@@ -166,12 +196,16 @@ void add_reference(CLI::App& app, Chosen& chosen) {
                       "Name of the camera (default: the scene's first); repeated for several photographs");
   command
       ->add_option("-o,--output", arguments->outputs,
-                   "The picture (.png, .jpg; .exr, .hdr in linear radiance); may be repeated")
+                   "The picture (.png, .jpg; .exr, .hdr in linear radiance); may be repeated; of --display a "
+                   "folder")
       ->capture_default_str();
   command->add_option("--mask", arguments->mask, "Also write which pixels mirror, for parvis compare --mask");
   command->add_option("--samples", arguments->samples, "Rays per pixel (default: 16; photographs: 64)")
       ->check(CLI::Range(1, 65536));
   arguments->add_photograph(*command);
+  arguments->walls.add(*command);
+  for (const char* of_one_picture : {"--size", "--mask", "--path-traced"})
+    command->get_option("--display")->excludes(of_one_picture);
   command->footer(
       "Example: parvis reference out/paper/paper.xp --camera street -o truth.png --mask mirrors.png\n"
       "Example: parvis reference out/paper/paper.xp --path-traced --all-cameras --size 1280x960 -o photo.png "
@@ -179,7 +213,11 @@ void add_reference(CLI::App& app, Chosen& chosen) {
       "An interrupted photograph goes on when the same command is given again.\n"
       "Started by mpirun, several processes or machines divide the picture: the same result, sooner.");
   command->callback([arguments, &chosen] {
-    chosen = [arguments] { return arguments->is_path_traced ? photograph(*arguments) : trace(*arguments); };
+    chosen = [arguments] {
+      return arguments->walls.is_given() ? trace_walls(*arguments)
+             : arguments->is_path_traced ? photograph(*arguments)
+                                         : trace(*arguments);
+    };
   });
 }
 

@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "base/reduction.h"
 #include "commands.h"
+#include "display_arguments.h"
 #include "graphics/render/picture_reader.h"
 #include "interruption.h"
 #include "life/sound/listening.h"
@@ -30,6 +31,7 @@ struct RenderArguments : SceneArguments {
   int supersample = 1;
   bool has_sound = false;
   std::vector<std::string> probes;  ///< "X,Y": pixels of the picture
+  DisplayArguments walls;
 };
 
 Status draw(stage::Stage& stage, const RenderArguments& arguments, int width, int height) {
@@ -244,7 +246,27 @@ Status render_states(stage::Stage& stage, const RenderArguments& arguments, int 
   return Ok{};
 }
 
+/// A picture of each wall of a display, and of each eye.
+Status render_walls(const RenderArguments& arguments) {
+  const Result<display::Display> display = arguments.walls.read();
+  if (!display) return display.errors();
+  if (arguments.scenarios.size() > 1) return error("--display: one --scenario at a time");
+  const Result<gl::Context> context = gl::Context::create_headless();
+  if (!context) return context.errors();
+  const Result<std::unique_ptr<stage::Stage>> stage = arguments.open_stage();
+  if (!stage) return stage.errors();
+  const Result<Camera> camera = (*stage)->camera(arguments.camera);
+  if (!camera) return camera.errors();
+  const std::vector<display::WallPicture> pictures =
+      display::pictures_of(*display, arguments.walls.head(*display), *camera);
+  Result<display::Screens> screens = display::Screens::create(*display, pictures);
+  if (!screens) return screens.errors();
+  if (Status status = stage::draw_walls(**stage, *display, pictures, *screens); !status) return status;
+  return stage::write_walls(*display, pictures, *screens, arguments.output);
+}
+
 Status render_scene(const RenderArguments& arguments) {
+  if (arguments.walls.is_given()) return render_walls(arguments);
   int width = 0, height = 0;
   if (Status status = arguments.read_size(width, height); !status) return status;
   if (const auto pixels = probed_pixels(arguments, width, height); !pixels) return pixels.errors();
@@ -267,7 +289,10 @@ void add_render(CLI::App& app, Chosen& chosen) {
   arguments->add_scene(*command);
   arguments->add_camera(*command);
   arguments->add_picture(*command);
-  command->add_option("-o,--output", arguments->output, "The picture (.png, .jpg) or film (.mp4)")
+  arguments->walls.add(*command);
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "The picture (.png, .jpg) or film (.mp4); of --display a folder")
       ->capture_default_str();
   command->add_option("--tour", arguments->tour, "A film of a tour of the scene")->excludes("--camera");
   command->add_option("--seconds", arguments->seconds, "Length of a film; 0: a picture, or the whole tour")
@@ -275,6 +300,8 @@ void add_render(CLI::App& app, Chosen& chosen) {
   command->add_option("--fps", arguments->frames_per_second, "Frames per second of a film")
       ->check(CLI::Range(1, 240))
       ->capture_default_str();
+  for (const char* of_one_picture : {"--size", "--tour", "--seconds"})
+    command->get_option("--display")->excludes(of_one_picture);
   command->add_flag("--sound", arguments->has_sound, "A film with what its camera hears; not with mpirun");
   command
       ->add_option("--supersample", arguments->supersample,
@@ -285,6 +312,7 @@ void add_render(CLI::App& app, Chosen& chosen) {
                       "Print what a pixel X,Y of a picture shows: metres, object, kind; may repeat");
   command->footer(
       "Example: parvis render out/paper/paper.xp --camera follow --seconds 10 -o out/drive.mp4\n"
+      "Example: parvis render scenes/square.xp --display scenes/displays/cave.json -o out/walls\n"
       "Started by mpirun, several processes or machines divide a film into frames: the same film, sooner. "
       "Interrupted, its finished frames stay in FILM.frames, and the same command goes on.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return render_scene(*arguments); }; });

@@ -172,10 +172,7 @@ double Stage::drawn_share() const {
   return double(renderer_->width()) * double(renderer_->height()) / (double(width_) * double(height_));
 }
 
-void Stage::adapt_to(const Camera& camera) {
-  const glm::vec3 eye = camera.position_in_world();
-  simulation_.clock.adapt(simulation_.scene, std::span(&eye, 1));
-}
+void Stage::adapt_to(std::span<const glm::vec3> eyes) { simulation_.clock.adapt(simulation_.scene, eyes); }
 
 void Stage::draw_held(const Camera& camera, int width, int height, const std::vector<std::uint8_t>& shown,
                       const scene::Scene& held) {
@@ -199,24 +196,38 @@ void Stage::draw_held(const Camera& camera, int width, int height, const std::ve
   pass_times_.end_pass("held things");
 }
 
-void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn,
-                 const std::vector<std::uint8_t>* shown, bool has_one_sample) {
+/// Ends what was shown before and takes over what has changed since.
+void Stage::begin_drawing(std::span<const render::EyeView> eyes) {
   end_refinement();
   below_held_ = 0;
   if (has_new_mirrors() || methods::settings(simulation_.scene) != shown_reflection_)
     if (const Status status = set_reflection(methods::settings(simulation_.scene)); !status)
       fmt::print(stderr, "{}", to_string(status.errors()));
-  width_ = size.x, height_ = size.y;
-  drawn_from_ = camera;
-  adapt_to(camera);
+  drawn_from_ = eyes.front().camera;
+  std::vector<glm::vec3> places;
+  for (const render::EyeView& eye : eyes) places.push_back(eye.camera.position_in_world());
+  adapt_to(places);
   pass_times_.begin_frame();
+}
+
+void Stage::draw(const Camera& camera, glm::ivec2 size, glm::ivec2 drawn,
+                 const std::vector<std::uint8_t>* shown, bool has_one_sample) {
+  const render::EyeView eye{camera, drawn.x, drawn.y};
+  begin_drawing(std::span(&eye, 1));
   renderer_->set_one_sample(has_one_sample);
+  width_ = size.x, height_ = size.y;
   render::FrameSteps steps;
   steps.shown_objects = shown;
   steps.end_pass = [&](const char* pass) { pass_times_.end_pass(pass); };
-  const Status status = methods::draw_frame(*renderer_, simulation_.scene, reflections_.get(),
-                                            {camera, drawn.x, drawn.y}, steps);
+  const Status status = methods::draw_frame(*renderer_, simulation_.scene, reflections_.get(), eye, steps);
   assert(status.ok() && "one eye has its target");
+}
+
+Status Stage::draw(std::span<const render::EyeView> eyes) {
+  begin_drawing(eyes);
+  renderer_->set_one_sample(false);
+  width_ = eyes.front().width, height_ = eyes.front().height;
+  return methods::draw_frame(*renderer_, simulation_.scene, reflections_.get(), eyes);
 }
 
 void Stage::refine(const Camera& camera, int width, int height) {
@@ -263,7 +274,8 @@ Image8 Stage::whole_picture() {
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                       const machines::Processes& processes) {
   end_refinement();  // tracing begins a frame
-  adapt_to(camera);
+  const glm::vec3 eye = camera.position_in_world();
+  adapt_to(std::span(&eye, 1));
   reference::TraceOptions options;
   options.samples_per_pixel = samples_per_pixel;
   options.processes = &processes;
@@ -273,7 +285,8 @@ reference::TracedPicture Stage::trace(const Camera& camera, int width, int heigh
 reference::TracedPicture Stage::trace(const Camera& camera, int width, int height, int samples_per_pixel,
                                       const reference::PixelWindow& window) {
   end_refinement();
-  adapt_to(camera);
+  const glm::vec3 eye = camera.position_in_world();
+  adapt_to(std::span(&eye, 1));
   reference::TraceOptions options;
   options.samples_per_pixel = samples_per_pixel;
   options.window = window;

@@ -14,6 +14,7 @@
 #include "graphics/realism/edge_lines.h"
 #include "graphics/reference/tracer.h"
 #include "graphics/render/drawables.h"
+#include "graphics/render/frame_views.h"
 #include "graphics/render/picture_scale.h"
 #include "graphics/render/renderer.h"
 #include "machines/processes.h"
@@ -110,6 +111,10 @@ class Stage {
     draw(camera, {width, height}, scale_.drawn_size(width, height), nullptr, holds_rate_by_pixels());
   }
 
+  /// The same for several eyes, in full resolution: walls of a room, a stereo pair. Each is displayed and
+  /// read after Renderer::select_eye; width and height are the first one's.
+  Status draw(std::span<const render::EyeView> eyes);
+
   /// Replaces `draw` while a person holds things: draws the frame without the objects and things that `shown`
   /// leaves out (a flag for each, as View::shown_objects), and over it those of `held`, a scene of their own,
   /// in full resolution where the eye rests. While view, size, scene and `shown` stay as they are, the frame
@@ -145,7 +150,8 @@ class Stage {
 
  private:
   void end_refinement();
-  void adapt_to(const Camera& camera);
+  void begin_drawing(std::span<const render::EyeView> eyes);
+  void adapt_to(std::span<const glm::vec3> eyes);
   bool has_new_mirrors();
   Stage(Simulation simulation, std::unique_ptr<render::Renderer> renderer,
         std::unique_ptr<realism::EdgeLines> lines, ShownRadiance refined);
