@@ -93,7 +93,7 @@ Image8 shown(const stage::Stage& stage) {
 /// FLIP of a frame that draws such a fraction of its pixels against one that draws all.
 double flip_of_lowered(stage::Stage& stage, double fraction) {
   constexpr int settling_frames = 40;
-  constexpr double rate = 10.0;
+  constexpr double rate = 15.0;
   const Camera camera = must(stage.camera("walk 1"));
   const auto draw = [&](int smaller) {
     stage.draw(camera, full_picture.x / smaller, full_picture.y / smaller);

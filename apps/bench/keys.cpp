@@ -22,8 +22,8 @@ constexpr Key keys[]{
     // commands
     {"speedup_2_processes", "", minimum(1.7), "the whole command, the slower of a photograph and a bake, over one process", {{"speedup_2_processes_on_one_core"}}},
     {"speedup_2_processes_of_the_work", "", minimum(1.7), "the divided work alone, the slower of both, over one process", {{"speedup_2_processes_of_the_work_on_one_core"}}},
-    {"view_fps_software", "fps", minimum(10.0), "window, 1280x720, walking past trees, --fps auto, settled", {{"view_fps_software_of_fps_off"}}},
-    {"view_drawn_percent", "%", {}, "pixels that the last frame of the walk drew"},
+    {"view_fps_software", "fps", minimum(15.0), "window, 1280x720, walking past trees, --fps auto, settled", {{"view_fps_software_of_fps_off"}}},
+    {"view_drawn_percent", "%", {}, "pixels that the last frame of the walk drew; the issue asks for 25"},
     {"view_lowered_flip", "FLIP", {}, "the lowered picture against one of all pixels"},
     // formats
     {"script_mb_s", "MB/s", {}, "a script of 20,000 nodes checked"},
@@ -57,7 +57,7 @@ constexpr Key keys[]{
     {"insert_to_picture_ms", "ms", maximum(150.0), "paper city, 1280x720: a bollard inserted, to its picture over the kept one, without shadow", {{"insert_to_whole_picture_ms"}}},
     {"drag_fps", "fps", minimum(10.0), "the same view: a stone bench dragged over the kept picture, all pixels", {{"drag_fps_of_whole_pictures"}}},
     {"drag_picture_flip", "FLIP", maximum(0.02), "the bench's pixels, held against drawn whole", {{"drag_picture_flip_3_cm_beside"}}},
-    {"scenario_switch_ms", "ms", maximum(100.0), "paper city, two designs of five objects, 1280x720, on a walk whose rate of 10 fps is held: from the choice to its picture", {{"scenario_switch_ms_of_whole_pictures"}}},
+    {"scenario_switch_ms", "ms", maximum(100.0), "paper city, two designs of five objects, 1280x720, on a walk whose rate of 15 fps, a window's, is held: from the choice to its picture", {{"scenario_switch_ms_of_whole_pictures"}}},
     {"scenario_switch_ms_beyond_an_ordinary_one", "ms", {}, "the same, beyond an ordinary frame of the walk"},
     {"sketch_edge_px", "px", maximum(1.0), "40 boxes, three views, 1280x720: the farthest ink from an edge that rays of the eye reach", {{"sketch_edge_px_of_boxes_5_cm_aside"}}},
     {"sketch_edges_without_ink_percent", "%", {}, "the same views: edges that rays reach, and no ink within a pixel"},

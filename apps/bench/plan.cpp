@@ -182,7 +182,7 @@ void measure_switches(const BenchSetup& setup, Report& report) {
     return ms;
   };
   for (const bool keeps_rate : {false, true}) {  // the resolution that a held rate leaves stays lowered
-    stage->hold_rate(keeps_rate ? 10.0 : 0.0);
+    stage->hold_rate(keeps_rate ? 15.0 : 0.0);
     for (int i = 0; i < (keeps_rate ? 40 : 3); ++i) walk_ms(keeps_rate);
     std::vector<double> switches, frames;
     for (int i = 0; i < (setup.is_quick ? 6 : 24); ++i) {

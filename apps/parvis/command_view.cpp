@@ -67,7 +67,7 @@ void add_view(CLI::App& app, Chosen& chosen) {
   command->add_option("--frames", arguments->window.max_frames, "Close after so many frames")
       ->check(CLI::Range(0, 1000000));
   command->add_option("--fps", arguments->rate,
-                      "Frames per second to hold by drawing fewer pixels while anything moves; auto: 10 on a "
+                      "Frames per second to hold by drawing fewer pixels while anything moves; auto: 15 on a "
                       "software renderer, 60 on a GPU; or off (default: auto; off with --frames)");
   command->add_flag("--plan", arguments->window.plans,
                     "Begin with the planner's tool in hand: place, move and measure objects of a design");

@@ -269,7 +269,7 @@ class Frames {
 }  // namespace
 
 double rate_of(const WindowOptions& options, bool is_software) {
-  constexpr double software_rate = 10.0, gpu_rate = 60.0;
+  constexpr double software_rate = 15.0, gpu_rate = 60.0;
   if (options.frames_per_second) return *options.frames_per_second;
   if (options.max_frames > 0 && !options.always_holds_rate) return 0.0;
   return is_software ? software_rate : gpu_rate;

@@ -31,7 +31,7 @@ struct WindowOptions {
   std::string screenshot;  ///< what the window shows last, panel and all, is written here; empty: nowhere
 };
 
-/// Frames per second that a window holds, 0: none. By itself 10 on a software renderer and 60 on a GPU; none
+/// Frames per second that a window holds, 0: none. By itself 15 on a software renderer and 60 on a GPU; none
 /// where `max_frames` asks for pictures that can be repeated, unless `always_holds_rate`.
 double rate_of(const WindowOptions& options, bool is_software);
 

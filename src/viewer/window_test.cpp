@@ -8,7 +8,7 @@ namespace {
 constexpr bool on_software = true, on_gpu = false;
 
 TEST(Window, HoldsARateByItself) {
-  EXPECT_EQ(rate_of({}, on_software), 10.0);
+  EXPECT_EQ(rate_of({}, on_software), 15.0);
   EXPECT_EQ(rate_of({}, on_gpu), 60.0);
 }
 
@@ -27,7 +27,7 @@ TEST(Window, HoldsNoRateWhereItCloses) {
   options.max_frames = 3;
   EXPECT_EQ(rate_of(options, on_software), 0.0);
   options.always_holds_rate = true;
-  EXPECT_EQ(rate_of(options, on_software), 10.0);
+  EXPECT_EQ(rate_of(options, on_software), 15.0);
   EXPECT_EQ(rate_of(options, on_gpu), 60.0);
 }
 
