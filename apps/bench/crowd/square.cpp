@@ -5,11 +5,13 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "bench/crowd/test_place.h"
 #include "bench/parts.h"
 #include "life/crowd/crowd_process.h"
 #include "life/people/test_feet.h"
+#include "life/traffic/traffic_process.h"
 
 namespace parvis::bench {
 namespace {
@@ -22,7 +24,8 @@ constexpr float look_s = 0.1f;
 stage::Simulation square(const BenchSetup& setup) {
   const fs::path script = setup.city() / "bench_square.xp";
   std::ofstream(script) << fmt::format(
-      "include(file=\"paper.xp\")\ncrowd(people={}, seed=5, centre=\"-74 72 0\", radius=80)\n",
+      "include(file=\"paper.xp\")\ntrafficLights(position=\"-74 72 0\", beside=2.8)\n"
+      "crowd(people={}, seed=5, centre=\"-74 72 0\", radius=80)\n",
       people_of_square);
   return setup.simulation(script);
 }
@@ -48,6 +51,7 @@ struct Seen {
   Beginnings<std::size_t> in_walls, in_vehicles;
   Beginnings<std::pair<std::size_t, std::size_t>> in_people, in_paths, on_crossings;
   int straight_through_walls = 0;
+  int at_red = 0;
 
   double per_person_hour(int count) const { return double(count) / person_hours; }
 };
@@ -97,14 +101,56 @@ void look_round(const crowd::CrowdProcess& process,
   seen.person_hours += double(walkers.size()) * double(look_s) / 3600.0;
 }
 
+/// Who crosses at red, from look to look.
+class RedLights {
+ public:
+  /// Counts those who have stepped onto a crossing, or driven over a stop line, since the last look.
+  int look(const crowd::Crowd& crowd, const scene::StreetTraffic& streets,
+           const traffic::Simulation& traffic) {
+    int count = 0;
+    constexpr float left_m = 0.5f;  // of a crossing that somebody has left
+    for (std::size_t i = 0; i < crowd.size(); ++i)
+      for (std::size_t c = 0; c < streets.crossings.size(); ++c) {
+        const glm::vec2 here = crowd.walkers().position[i];
+        bool& is_on = is_on_[{i, c}];
+        const bool was_on = is_on;
+        is_on = streets.crossings[c].contains(here, was_on ? left_m : 0.0f);
+        count += has_looked_ && is_on && !was_on && streets.lights[c] == scene::WalkLight::wait ? 1 : 0;
+      }
+    fronts_.resize(traffic.vehicles().size());
+    const std::vector<traffic::SignalJunction>& junctions = traffic.signals().junctions();
+    for (std::size_t v = 0; v < fronts_.size(); ++v) {
+      const glm::vec2 front = streets.vehicles[v].front, before = std::exchange(fronts_[v], front);
+      for (std::size_t j = 0; has_looked_ && j < junctions.size(); ++j)
+        for (const traffic::SignalApproach& approach : junctions[j].approaches) {
+          const glm::vec2 stop(approach.stop);
+          const bool passes = glm::dot(before - stop, approach.away) > 0.0f &&
+                              glm::dot(front - stop, approach.away) <= 0.0f &&
+                              glm::distance(front, stop) < approach.half_width_m + 0.5f;
+          count += passes && traffic.signals().light(j, approach.phase) == traffic::DriveLight::red ? 1 : 0;
+        }
+    }
+    has_looked_ = true;
+    return count;
+  }
+
+ private:
+  std::map<std::pair<std::size_t, std::size_t>, bool> is_on_;
+  std::vector<glm::vec2> fronts_;
+  bool has_looked_ = false;
+};
+
 Seen watch(stage::Simulation& simulation, float seconds) {
   Seen seen;
+  RedLights red;
+  const auto* traffic = simulation.clock.find<traffic::TrafficProcess>();
   const auto* process = simulation.clock.find<crowd::CrowdProcess>();
   if (!process || !process->crowd() || !process->streets()) fail("nobody walks in the square");
   std::map<std::pair<std::size_t, std::size_t>, float> stands_s;
   for (float time_s = 0.0f; time_s < seconds; time_s += look_s) {
     simulation.advance(double(look_s));
     look_round(*process, stands_s, seen);
+    seen.at_red += red.look(*process->crowd(), *process->streets(), traffic->traffic().simulation());
   }
   const crowd::Crowd& crowd = *process->crowd();
   for (std::size_t i = 0; i < crowd.size(); ++i)
@@ -197,10 +243,13 @@ void measure_square(const BenchSetup& setup, Report& report) {
   report.add("overlaps_per_person_hour_people", seen.per_person_hour(seen.in_people.count()));
   report.add("people_in_vehicles_paths", double(seen.in_paths.count()));
   report.add("blocked_crossings", double(seen.on_crossings.count()));
-  report.skip("red_light_crossings", "no street has traffic lights: people and cars meet at zebras");
+  report.add("red_light_crossings", double(seen.at_red));
   stage::Simulation unheeded = square(setup);
   unheeded.scene.data<scene::SharedStreets>().now->has_people = false;
+  unheeded.clock.find<traffic::TrafficProcess>()->traffic().simulation().heeds_signals = false;
+  unheeded.clock.find<crowd::CrowdProcess>()->heeds_lights = false;
   const Seen without = watch(unheeded, std::max(seconds / 10.0f, 60.0f));
+  report.add("red_light_crossings_unheeded", double(without.at_red));
   report.add("people_in_vehicles_paths_unheeded", double(without.in_paths.count()));
   report.add("overlaps_per_person_hour_vehicles_unheeded",
              without.per_person_hour(without.in_vehicles.count()));

@@ -125,7 +125,7 @@ std::vector<StreetCrossing> street_crossings(const Scene& scene) {
     if (!(to - from > 0.5f)) continue;
     crossings.push_back({first.middle + glm::vec3(from * across, 0.0f),
                          first.middle + glm::vec3(to * across, 0.0f),
-                         first.is_painted ? painted_m : unpainted_m});
+                         first.is_painted ? painted_m : unpainted_m, first.junction});
     made_at.push_back(&first);
   }
   std::vector<StreetCrossing> kept;

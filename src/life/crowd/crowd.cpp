@@ -8,12 +8,13 @@ namespace {
 
 constexpr float wall_reach_m = 1.2f;  // within which walls are looked for
 constexpr float floor_apart_m = 1.5f, steepest_seen = 0.3f;
-constexpr float corner_m = 0.5f;      // at which a corner is reached
-constexpr float own_lean_m = 0.7f;    // corners are passed wider by up to it
-constexpr float queue_lean_m = 0.4f;  // and by so much more at each look around in a queue
-constexpr float queue_speed = 0.6f;   // of the free speed
-constexpr std::uint32_t turns = 4;    // a part of the people looks round in each step
-constexpr float lost_s = 4.0f;        // blocked for so long: another way is sought
+constexpr float away_level_m = -1e4f;  // below all ground
+constexpr float corner_m = 0.5f;       // at which a corner is reached
+constexpr float own_lean_m = 0.7f;     // corners are passed wider by up to it
+constexpr float queue_lean_m = 0.4f;   // and by so much more at each look around in a queue
+constexpr float queue_speed = 0.6f;    // of the free speed
+constexpr std::uint32_t turns = 4;     // a part of the people looks round in each step
+constexpr float lost_s = 4.0f;         // blocked for so long: another way is sought
 // Weidmann 1993: horizontal speeds on stairs.
 constexpr float stair_slope = 0.35f, up_m_s = 0.61f, down_m_s = 0.694f;
 
@@ -87,6 +88,24 @@ int Crowd::quickest(std::size_t person, std::span<const int> destinations) const
            (way_m / people_[person].own_speed + wait_s);
   };
   return *std::ranges::min_element(destinations, {}, seconds);
+}
+
+void Crowd::set_away(std::size_t person, bool is_away) {
+  PersonOnTheWay& it = people_[person];
+  it.is_away = is_away;
+  if (!is_away) return;
+  it.destination = -1, it.has_arrived = false;
+  walkers_.height_m[person] = away_level_m, walkers_.velocity[person] = glm::vec2(0.0f);
+}
+
+void Crowd::put(std::size_t person, glm::vec3 where) {
+  const glm::vec3 place = mesh_.nearest(where).value_or(where);
+  walkers_.position[person] = place, walkers_.height_m[person] = place.z;
+  set_away(person, false);
+}
+
+void Crowd::stand_back(std::size_t person, glm::vec2 before) {
+  walkers_.position[person] = before, walkers_.velocity[person] = glm::vec2(0.0f);
 }
 
 void Crowd::remove(std::size_t person) {
@@ -169,7 +188,7 @@ void Crowd::step(float step_s, std::span<const MovingBody> bodies) {
     PersonOnTheWay& it = people_[i];
     it.waits_s = std::max(it.waits_s - step_s, 0.0f);
     walkers_.aim[i] = glm::vec2(0.0f);
-    if (it.destination < 0 || it.has_arrived || it.waits_s > 0.0f || it.is_held) continue;
+    if (it.destination < 0 || it.has_arrived || it.waits_s > 0.0f || it.is_held || it.is_away) continue;
     const Destination& to = destinations_[std::size_t(it.destination)];
     const glm::vec2 here = walkers_.position[i];
     if (glm::distance(nearest_on_segment(to.a, to.b, here), here) < to.reach_m) {
@@ -199,7 +218,7 @@ void Crowd::change_ground(const WalkingGround& ground, glm::vec2 low, glm::vec2 
     PersonOnTheWay& it = people_[i];
     // Who stands where nobody can any more steps aside.
     const glm::vec3 here(walkers_.position[i], walkers_.height_m[i]);
-    if (glm::distance(glm::vec2(here), middle) < radius)
+    if (!it.is_away && glm::distance(glm::vec2(here), middle) < radius)
       if (const auto place = mesh_.nearest(here, 4.0f)) walkers_.position[i] = *place;
     if (it.destination >= 0 && !it.has_arrived) send(i, it.destination);
   }

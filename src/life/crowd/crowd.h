@@ -27,6 +27,7 @@ struct PersonOnTheWay {
   float slope = 0.0f;        ///< of the ground in the walking direction
   bool has_arrived = false;
   bool is_held = false;     ///< stands for this step, at a kerb say
+  bool is_away = false;     ///< is not on this ground: in nobody's way
   float own_speed = 1.34f;  ///< on level ground with nobody in the way, m/s
   float lean_m = 0.0f;      ///< by which corners are passed wider
   Way way = {};
@@ -53,6 +54,12 @@ class Crowd {
   int quickest(std::size_t person, std::span<const int> destinations) const;
   /// Holds a person where they stand, or lets them walk.
   void hold(std::size_t person, bool is_held) { people_[person].is_held = is_held; }
+  /// Takes a person off the ground, or leaves them there again: aboard a tram, say.
+  void set_away(std::size_t person, bool is_away);
+  /// Puts a person who was away at a place, where they stand.
+  void put(std::size_t person, glm::vec3 where);
+  /// Undoes the last step of a person, who then stands where they were before.
+  void stand_back(std::size_t person, glm::vec2 before);
   /// Removes a person; the last one takes the index.
   void remove(std::size_t person);
 

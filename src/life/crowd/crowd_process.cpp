@@ -17,6 +17,7 @@ constexpr int destinations = 64;       // places that people walk between
 constexpr int tries_per_person = 12;   // to find a place from which a way leads on
 constexpr int tries_for_place = 1000;  // within the radius
 constexpr int warm_up_steps = 200;     // all start at rest
+constexpr int flow_warm_up_steps = 900;
 constexpr float mean_speed = 1.34f, speed_deviation = 0.26f, min_speed = 0.6f,
                 max_speed = 2.0f;  // Weidmann 1993
 constexpr float longest_rest_s = 12.0f,
@@ -25,7 +26,9 @@ constexpr float max_people_per_m2 = 1.0f;  // Weidmann: beyond it nobody walks a
 // Within which a walker may come onto ground that a tram covers; who was pushed over its edge so far waits,
 // too.
 constexpr float carried_s = 1.0f, pushed_m = 0.3f;
+constexpr float pushed_on_s = 0.6f;  // within which others may push somebody onto a crossing
 constexpr float seen_from_m = 2.0f, step_ahead_m = 0.9f;  // of crossings, before their edge
+constexpr float corners_reach = 1.12f;  // of half a vehicle's width, from half of that before its ends
 constexpr float vehicle_height_m = 2.5f;
 constexpr float turn_rate = 5.0f;  // radians per second
 constexpr float shoulders_m = 0.21f, shoulder_range_m = 0.03f;
@@ -86,7 +89,7 @@ float wrapped(float angle) { return std::remainder(angle, 2.0f * std::numbers::p
 
 }  // namespace
 
-int CrowdProcess::new_destination(Random& random) { return random.index(int(crowd_->destinations().size())); }
+int CrowdProcess::new_destination(Random& random) { return random.index(destinations); }
 
 void CrowdProcess::populate(const CrowdDemand& demand, const scene::RoadGraph& roads) {
   Random places(demand.seed);
@@ -108,6 +111,9 @@ void CrowdProcess::populate(const CrowdDemand& demand, const scene::RoadGraph& r
     const glm::vec3 place = somewhere();
     crowd_->add(Destination{place, place, 0.8f});
   }
+  add_flows(demand);
+  if (stops_ && demand.flows.empty()) passengers_.emplace(stops_, *crowd_, demand.centre, demand.radius_m);
+  if (passengers_ && passengers_->empty()) passengers_.reset();
   int missing = 0;
   for (int p = 0; p < demand.people; ++p) {
     Random random(demand.seed, std::uint64_t(p) + 1);
@@ -127,6 +133,8 @@ void CrowdProcess::populate(const CrowdDemand& demand, const scene::RoadGraph& r
       shown.walked_m = random.uniform(0.0f, shown.model->cycle_m);
     }
     shown.heading = random.uniform(-3.0f, 3.0f);
+    if (passengers_) passengers_->add(*crowd_, random);
+    if (!demand.flows.empty()) crowd_->set_away(shown_.size(), true);
     shown_.push_back(shown), randoms_.push_back(random);
   }
   if (missing > 0)
@@ -158,13 +166,14 @@ void CrowdProcess::begin(scene::Scene& scene, action::SharedByProcesses&) {
   heights_ = GroundHeights(ground);
   streets_ = std::as_const(scene).data<scene::SharedStreets>().now;
   if (streets_) streets_->has_people = true;
+  stops_ = std::as_const(scene).data<scene::SharedStops>().now;
   models_ = demand.models;
   crowd_.emplace(*std::move(mesh));
   is_visible_ = demand.is_visible;
   if (models_.empty()) generated_.emplace(std::size_t(demand.people), demand.seed);
   populate(demand, scene.roads);
   add_objects(scene, is_visible_);
-  for (int i = 0; i < warm_up_steps; ++i) walk();
+  for (int i = 0; i < (flows_.empty() ? warm_up_steps : flow_warm_up_steps); ++i) walk();
   present(scene, 0.0);
 }
 
@@ -199,25 +208,30 @@ void CrowdProcess::cross_streets() {
   if (!streets_) return;
   vehicles_.clear();
   for (const scene::StreetTraffic::Vehicle& vehicle : streets_->vehicles) {
+    // A capsule in which all corners lie.
     const glm::vec2 half =
-        glm::normalize(vehicle.front - vehicle.rear + glm::vec2(1e-6f)) * vehicle.half_width_m;
-    vehicles_.push_back({vehicle.rear + half, vehicle.front - half, vehicle.half_width_m, vehicle.velocity,
-                         vehicle.ground_m - vehicle_height_m, vehicle.ground_m + vehicle_height_m});
+        glm::normalize(vehicle.front - vehicle.rear + glm::vec2(1e-6f)) * (0.5f * vehicle.half_width_m);
+    vehicles_.push_back({vehicle.rear + half, vehicle.front - half, corners_reach * vehicle.half_width_m,
+                         vehicle.velocity, vehicle.ground_m - vehicle_height_m,
+                         vehicle.ground_m + vehicle_height_m});
   }
   std::ranges::fill(streets_->people, std::uint8_t(0));
   const Walkers& walkers = crowd_->walkers();
   for (std::size_t p = 0; p < crowd_->size(); ++p) {
     const glm::vec2 here = walkers.position[p];
     crowd_->hold(p, false);
+    if (crowd_->people()[p].is_away) continue;
     for (std::size_t c = 0; c < streets_->crossings.size(); ++c) {
       const scene::StreetCrossing& crossing = streets_->crossings[c];
       if (!crossing.contains(here, seen_from_m)) continue;
       const bool is_on = crossing.contains(here);
-      const bool steps_on = !is_on && crossing.contains(here + step_ahead_m * crowd_->direction(p));
-      if (is_on || steps_on) streets_->people[c] = 1;
-      if (steps_on && streets_->taken[c] != 0) crowd_->hold(p, true);
+      // Those who give way to others do not go where they want to.
+      const bool steps_on = !is_on && (crossing.contains(here + step_ahead_m * crowd_->direction(p)) ||
+                                       crossing.contains(here + pushed_on_s * walkers.velocity[p]));
+      const bool is_red = heeds_lights && streets_->lights[c] == scene::WalkLight::wait;
+      if (is_on || (steps_on && !is_red)) streets_->people[c] = 1;
+      if (steps_on && (is_red || streets_->taken[c] != 0)) crowd_->hold(p, true);
     }
-    // Those who give way to others do not go where they want to.
     const glm::vec2 next = here + step_ahead_m * crowd_->direction(p);
     const glm::vec2 carried_to = here + carried_s * walkers.velocity[p];
     const auto is_entered = [&](const scene::StreetCrossing& strip) {
@@ -227,27 +241,53 @@ void CrowdProcess::cross_streets() {
   }
 }
 
+/// Who waits at a kerb is not pushed over it.
+void CrowdProcess::stay_at_kerbs(const std::vector<glm::vec2>& before) {
+  if (!streets_) return;
+  for (std::size_t c = 0; c < streets_->crossings.size(); ++c) {
+    const bool is_red = heeds_lights && streets_->lights[c] == scene::WalkLight::wait;
+    if (!is_red && streets_->taken[c] == 0) continue;
+    for (std::size_t p = 0; p < crowd_->size(); ++p)
+      if (streets_->crossings[c].contains(crowd_->walkers().position[p]) &&
+          !streets_->crossings[c].contains(before[p]) && !crowd_->people()[p].is_away)
+        crowd_->stand_back(p, before[p]);
+  }
+}
+
 void CrowdProcess::walk() {
-  for (std::size_t p = 0; p < shown_.size(); ++p) {
+  for (std::size_t p = 0; p < shown_.size() && flows_.empty(); ++p) {
     if (!crowd_->people()[p].has_arrived) continue;
     Random& random = randoms_[p];
+    if (passengers_ && passengers_->continues(p, *crowd_, random)) continue;
     crowd_->send(p, new_destination(random),
                  random.chance(resting) ? random.uniform(1.0f, longest_rest_s) : 0.0f);
   }
+  if (!flows_.empty()) come_and_go();
+  if (passengers_)
+    passengers_->step(crowd_step_s, *crowd_, randoms_,
+                      [&](std::size_t p) { crowd_->send(p, new_destination(randoms_[p])); });
+  follow_presence();
   cross_streets();
+  const std::vector<glm::vec2> before = crowd_->walkers().position;
   crowd_->step(crowd_step_s, vehicles_);
+  stay_at_kerbs(before);
   const Walkers& walkers = crowd_->walkers();
   for (std::size_t p = 0; p < shown_.size(); ++p) {
     Shown& it = shown_[p];
     it.before = it.now;
     it.now = glm::vec3(walkers.position[p], walkers.height_m[p]);
     it.now.z = heights_.at(it.now);
+    if (const auto between = passengers_ ? passengers_->between(p) : std::nullopt)
+      it.now = *between;
+    else if (it.is_gone)
+      it.now = it.before;
     it.walked_before_m = it.walked_m, it.heading_before = it.heading;
     const glm::vec2 velocity = walkers.velocity[p];
     const float speed = glm::length(velocity);
     it.walked_m += double(speed * crowd_step_s);
     constexpr float min_turning_speed = 0.15f;  // who is pushed about does not turn round
-    const glm::vec2 towards = speed > min_turning_speed ? velocity : walkers.aim[p];
+    glm::vec2 towards = speed > min_turning_speed ? velocity : walkers.aim[p];
+    if (const auto looks = passengers_ ? passengers_->looks_to(p) : std::nullopt) towards = *looks;
     if (towards == glm::vec2(0.0f)) continue;
     const float turn = wrapped(std::atan2(towards.y, towards.x) - it.heading),
                 most = turn_rate * crowd_step_s;
@@ -255,7 +295,80 @@ void CrowdProcess::walk() {
   }
   const auto ground = [this](glm::vec3 place) { return heights_.at(place); };
   for (std::size_t p = 0; p < bodies_.size(); ++p)
-    bodies_[p].step({shown_[p].now, shown_[p].heading}, crowd_step_s, ground);
+    if (!shown_[p].is_gone) bodies_[p].step({shown_[p].now, shown_[p].heading}, crowd_step_s, ground);
+}
+
+/// Flows between places of the mesh.
+void CrowdProcess::add_flows(const CrowdDemand& demand) {
+  constexpr float beside_mesh_m = 3.0f;
+  for (const Flow& flow : demand.flows) {
+    const auto from = crowd_->mesh().nearest(flow.from, beside_mesh_m),
+               to = crowd_->mesh().nearest(flow.to, beside_mesh_m);
+    const bool has_way = from && to && crowd_->mesh().way(*from, *to);
+    if (!has_way) {
+      const glm::vec3 bad = from ? flow.to : flow.from;
+      warn(error("crowd: nobody can walk from {:.1f} {:.1f} to {:.1f} {:.1f}: {}", flow.from.x, flow.from.y,
+                 flow.to.x, flow.to.y,
+                 from && to ? std::string("no way leads there")
+                            : fmt::format("nothing to walk on lies at {:.1f} {:.1f} within the radius", bad.x,
+                                          bad.y)));
+      continue;
+    }
+    if (flow.per_hour <= 0.0f) continue;
+    RunningFlow running{*from, crowd_->add(Destination{*to, *to, 0.8f}), flow.per_hour};
+    running.random = Random(demand.seed, 1'000'000u + flows_.size());
+    running.next_s = double(running.random.uniform()) * 3600.0 / double(flow.per_hour);
+    flows_.push_back(running);
+  }
+}
+
+/// People of flows come (a Poisson process each) and leave.
+void CrowdProcess::come_and_go() {
+  constexpr float free_m = 0.6f;
+  flow_time_s_ += double(crowd_step_s);
+  for (std::size_t p = 0; p < shown_.size(); ++p)
+    if (crowd_->people()[p].has_arrived) crowd_->set_away(p, true);
+  const auto is_free = [&](glm::vec3 place) {
+    const Walkers& walkers = crowd_->walkers();
+    for (std::size_t p = 0; p < walkers.size(); ++p)
+      if (!crowd_->people()[p].is_away && glm::distance(walkers.position[p], glm::vec2(place)) < free_m)
+        return false;
+    return true;
+  };
+  for (RunningFlow& flow : flows_) {
+    if (flow.next_s > flow_time_s_ || !is_free(flow.from)) continue;
+    const auto person = std::ranges::find(crowd_->people(), true, &PersonOnTheWay::is_away);
+    if (person == crowd_->people().end()) {
+      if (!std::exchange(is_short_of_people_, true))
+        warn(error("crowd: the flows bring more than {} people at a time; more people= lets them all come",
+                   shown_.size()));
+      return;
+    }
+    const auto p = std::size_t(person - crowd_->people().begin());
+    crowd_->put(p, flow.from);
+    if (!crowd_->send(p, flow.destination)) crowd_->set_away(p, true);
+    shown_[p].now = flow.from;
+    const glm::vec2 ahead = crowd_->direction(p);
+    if (ahead != glm::vec2(0.0f)) shown_[p].heading = std::atan2(ahead.y, ahead.x);
+    flow.next_s -= std::log(1.0 - double(flow.random.uniform())) * 3600.0 / double(flow.per_hour);
+  }
+}
+
+/// Shows who has come and hides who has gone; feet are set down again where they come.
+void CrowdProcess::follow_presence() {
+  for (std::size_t p = 0; p < shown_.size(); ++p) {
+    Shown& it = shown_[p];
+    const bool was_gone = std::exchange(it.is_gone, is_gone(p));
+    if (!was_gone || it.is_gone) continue;
+    if (passengers_) {
+      it.now = passengers_->between(p).value_or(it.now);
+      if (const auto looks = passengers_->looks_to(p)) it.heading = std::atan2(looks->y, looks->x);
+    }
+    if (!generated_) continue;
+    const people::Activity activity = bodies_[p].activity;
+    bodies_[p] = people::WalkingBody(generated_->body(p), {it.now, it.heading}, float(p) * 1.37f);
+    bodies_[p].activity = activity;
+  }
 }
 
 void CrowdProcess::step(const scene::Scene&) {
@@ -276,13 +389,16 @@ void CrowdProcess::present(scene::Scene& scene, double ahead_s) {
   const double since_s = double(steps_ % clock_steps) * action::step_s + ahead_s;
   const float part = std::min(float(since_s) / crowd_step_s, 1.0f);
   if (generated_) {
-    for (std::size_t p = 0; p < bodies_.size(); ++p)
+    for (std::size_t p = 0; p < bodies_.size(); ++p) {
+      generated_->set_away(scene, p, shown_[p].is_gone);
       generated_->place(p, bodies_[p].lead_at(part), bodies_[p].posture_at(part));
+    }
     generated_->show(scene);
     return;
   }
   for (const Shown& it : shown_) {
     scene::Object& object = scene.objects[it.object];
+    object.is_visible = is_visible_ && !it.is_gone;
     const glm::vec3 place = glm::mix(it.before, it.now, part);
     const float heading = it.heading_before + part * (it.heading - it.heading_before);
     object.world_from_model =

@@ -8,6 +8,7 @@
 #include "land/roads/street_crossings.h"
 #include "life/crowd/crowd.h"
 #include "life/crowd/demand.h"
+#include "life/crowd/passengers.h"
 #include "life/crowd/scene_ground.h"
 #include "life/crowd/shown_people.h"
 #include "scene/action/process.h"
@@ -36,8 +37,12 @@ class CrowdProcess final : public action::Process {
 
   /// The crowd after `begin`; null where nobody walks.
   const Crowd* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
+  /// False: people cross at red, too, which benches compare with.
+  bool heeds_lights = true;
   /// The scene's streets as people see them; null where there is no traffic.
   const scene::StreetTraffic* streets() const { return streets_.get(); }
+  /// Who rides trams; nothing where there are no stops.
+  const Passengers* passengers() const { return passengers_ ? &*passengers_ : nullptr; }
   /// Generated people; nothing where models of the user's walk.
   const ShownPeople* generated() const { return generated_ ? &*generated_ : nullptr; }
 
@@ -49,14 +54,23 @@ class CrowdProcess final : public action::Process {
     glm::vec3 before{0.0f}, now{0.0f};            ///< places at the last two steps
     float heading_before = 0.0f, heading = 0.0f;  ///< radians, counter-clockwise from +x
     double walked_before_m = 0.0, walked_m = 0.0;
+    bool is_gone = false;  ///< not to be seen
   };
 
   void populate(const CrowdDemand& demand, const scene::RoadGraph& roads);
   void walk();
+  void come_and_go();
+  void follow_presence();
+  void add_flows(const CrowdDemand& demand);
   void cross_streets();
+  void stay_at_kerbs(const std::vector<glm::vec2>& before);
   void add_objects(scene::Scene& scene, bool is_visible);
   void follow_visibility(scene::Scene& scene);
   int new_destination(Random& random);
+  /// True for who is not to be seen: aboard a tram, or not here yet.
+  bool is_gone(std::size_t person) const {
+    return crowd_->people()[person].is_away && !(passengers_ && passengers_->between(person));
+  }
 
   std::optional<Crowd> crowd_;
   GroundHeights heights_;
@@ -65,7 +79,20 @@ class CrowdProcess final : public action::Process {
   std::optional<ShownPeople> generated_;     ///< where no model says how people look
   std::vector<people::WalkingBody> bodies_;  ///< of generated people, in their order
   std::vector<Random> randoms_;
-  std::shared_ptr<scene::StreetTraffic> streets_;  ///< null: no traffic
+  /// A flow of the demand.
+  struct RunningFlow {
+    glm::vec3 from{0.0f};
+    int destination = 0;
+    float per_hour = 0.0f;
+    double next_s = 0.0;  ///< somebody comes then
+    Random random{0};
+  };
+  std::vector<RunningFlow> flows_;
+  double flow_time_s_ = 0.0;
+  bool is_short_of_people_ = false;
+  std::optional<Passengers> passengers_;                    ///< where there are stops
+  std::shared_ptr<scene::StreetTraffic> streets_;           ///< null: no traffic
+  std::shared_ptr<std::vector<scene::TransitStop>> stops_;  ///< null: no trams stop
   std::vector<MovingBody> vehicles_;
   long steps_ = 0;
   bool is_visible_ = true;

@@ -31,7 +31,7 @@ class GeneratedPeople : public testing::Test {
   void begin(int people) {
     scene_.objects.push_back(level_ground(15.0f));
     CrowdDemand demand;
-    demand.people = people, demand.radius_m = 14.0f, demand.seed = 3;
+    demand.people = people, demand.radius_m = 14.0f, demand.seed = 3, demand.flows = flows_;
     scene_.data<CrowdDemand>() = demand;
     process_.begin(scene_, shared_);
   }
@@ -53,6 +53,7 @@ class GeneratedPeople : public testing::Test {
     return box;
   }
 
+  std::vector<Flow> flows_;
   scene::Scene scene_;
   action::SharedByProcesses shared_;
   CrowdProcess process_;
@@ -146,6 +147,106 @@ TEST_F(GeneratedPeople, DoNotStepOntoGroundThatATramCoversNext) {
   EXPECT_GT(stepped_on(30), 3) << "without a tram they walk over its track";
   streets->kept_clear = {track};
   EXPECT_EQ(stepped_on(60), 0);
+}
+
+TEST_F(GeneratedPeople, BoardAndAlightWhileDoorsAreOpen) {
+  const auto stops = std::make_shared<std::vector<scene::TransitStop>>();
+  scene::TransitStop stop{{-10, 12, 0}, {10, 12, 0}, {0, -1}, 2.5f, {}};
+  for (const float x : {-7.0f, -2.0f, 3.0f, 8.0f}) stop.doors.push_back({x, 12, 0});
+  stops->push_back(stop);
+  scene_.data<scene::SharedStops>().now = stops;
+  begin(40);
+  ASSERT_TRUE(process_.passengers());
+  scene::TransitStop& now = stops->front();
+  const auto gone = [&] {
+    int count = 0;
+    for (std::size_t p = 0; p < 40; ++p) count += person(p) ? 0 : 1;
+    return count;
+  };
+  const int aboard_at_first = gone();
+  EXPECT_GT(aboard_at_first, 0);
+  int waiting = 0;
+  for (int round = 0; round < 4; ++round) {
+    const int boarded = now.boarded, alighted = now.alighted;
+    advance(60 * 60);
+    EXPECT_EQ(now.boarded, boarded) << "nobody passes closed doors";
+    EXPECT_EQ(now.alighted, alighted);
+    for (std::size_t p = 0; p < 40; ++p) {
+      if (process_.passengers()->trip(p) != Passengers::Trip::waits) continue;
+      ++waiting;
+      EXPECT_GT(process_.crowd()->walkers().position[p].y, 8.5f) << "they wait on the platform";
+    }
+    now.is_open = true;
+    int longest = 0;
+    for (int s = 0; s < 25; ++s) {
+      now.open_s = float(18 - s);
+      advance(60);
+      longest = std::max(longest, now.boarding);
+    }
+    EXPECT_GT(longest, 0) << "doors are asked to wait";
+    EXPECT_EQ(now.boarding, 0) << "and then no longer";
+    now.is_open = false;
+  }
+  EXPECT_GT(waiting, 3);
+  EXPECT_GT(now.boarded, 3);
+  EXPECT_GT(now.alighted, 3);
+  EXPECT_EQ(gone(), aboard_at_first + now.boarded - now.alighted) << "nobody is lost";
+}
+
+TEST_F(GeneratedPeople, OfFlowsComeAndLeaveAsManyAsWereCounted) {
+  flows_ = {{{-12, -12, 0}, {12, 12, 0}, 1200.0f}, {{12, -12, 0}, {-12, 10, 0}, 0.0f}};
+  begin(30);
+  std::vector<bool> was_here(30, false);
+  int came = 0, here = 0;
+  for (int s = 0; s < 600; ++s) {
+    advance(60);
+    here = 0;
+    for (std::size_t p = 0; p < 30; ++p) {
+      const bool is_here = person(p) != nullptr;
+      came += is_here && !was_here[p] ? 1 : 0, here += is_here ? 1 : 0;
+      was_here[p] = is_here;
+    }
+  }
+  EXPECT_NEAR(came, 200, 50) << "1200 per hour, for ten minutes: four standard deviations";
+  EXPECT_LT(here, 20) << "who has arrived leaves";
+  EXPECT_TRUE(process_.take_warnings().empty());
+}
+
+TEST_F(GeneratedPeople, OfAFlowToNowhereAreMissedWithAMessage) {
+  flows_ = {{{-12, -12, 0}, {500, 12, 0}, 60.0f}};
+  begin(5);
+  const Errors warnings = process_.take_warnings();
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings.front().message.find("500.0 12.0"), std::string::npos) << warnings.front().message;
+}
+
+TEST_F(GeneratedPeople, WaitAtRed) {
+  const scene::StreetCrossing crossing{{-15, 0, 0}, {15, 0, 0}, 2.0f};  // all of the place's breadth
+  const auto streets = std::make_shared<scene::StreetTraffic>();
+  streets->crossings = {crossing}, streets->people = {0}, streets->taken = {0};
+  streets->lights = {scene::WalkLight::walk};
+  scene_.data<scene::SharedStreets>().now = streets;
+  begin(16);
+  const auto stepped_on = [&](int seconds) {
+    std::vector<bool> was_on(16, true);
+    int count = 0;
+    for (int s = 0; s < 10 * seconds; ++s) {
+      advance(6);
+      for (std::size_t p = 0; p < 16; ++p) {
+        const bool is_on =
+            crossing.contains(process_.crowd()->walkers().position[p], was_on[p] ? 0.5f : 0.0f);
+        count += is_on && !was_on[p] ? 1 : 0;
+        was_on[p] = is_on;
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(stepped_on(30), 3) << "at green";
+  streets->lights = {scene::WalkLight::wait};
+  EXPECT_EQ(stepped_on(60), 0);
+  EXPECT_EQ(streets->people[0], 0) << "who waits at red stops nobody";
+  process_.heeds_lights = false;
+  EXPECT_GT(stepped_on(30), 3) << "the control";
 }
 
 TEST_F(GeneratedPeople, WithoutGroundAreMissedWithAMessage) {

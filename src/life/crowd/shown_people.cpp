@@ -83,7 +83,13 @@ void ShownPeople::add_to(scene::Scene& scene, std::span<const std::string> names
 
 void ShownPeople::set_visible(scene::Scene& scene, bool is_visible) {
   is_visible_ = is_visible;
-  for (const ShownPerson& it : people_) scene.objects[it.object].is_visible = is_visible;
+  for (const ShownPerson& it : people_) scene.objects[it.object].is_visible = is_visible && !it.is_away;
+}
+
+void ShownPeople::set_away(scene::Scene& scene, std::size_t person, bool is_away) {
+  ShownPerson& it = people_[person];
+  it.is_away = is_away;
+  scene.objects[it.object].is_visible = is_visible_ && !is_away;
 }
 
 const people::BodyField& ShownPeople::body(std::size_t person) const {
@@ -105,7 +111,7 @@ void ShownPeople::show_person(scene::Scene& scene, std::size_t person) const {
   const ShownPerson& it = people_[person];
   scene::Object& object = scene.objects[it.object];
   object.name = it.name;
-  object.is_visible = is_visible_;
+  object.is_visible = is_visible_ && !it.is_away;
   object.world_from_model =
       glm::rotate(glm::translate(glm::mat4(1.0f), it.lead.place), it.lead.heading, glm::vec3(0, 0, 1));
   const std::vector<glm::mat4> pose = people::pose_of(body(person).skeleton(), it.posture);
@@ -122,7 +128,11 @@ void ShownPeople::show(scene::Scene& scene) const {
     return;
   }
   parallel_for(
-      people_.size(), [&](std::size_t p) { show_person(scene, p); }, 4);
+      people_.size(),
+      [&](std::size_t p) {
+        if (!people_[p].is_away) show_person(scene, p);
+      },
+      4);
 }
 
 void ShownPeople::adapt(scene::Scene& scene, std::span<const glm::vec3> eyes) {
@@ -130,7 +140,7 @@ void ShownPeople::adapt(scene::Scene& scene, std::span<const glm::vec3> eyes) {
   std::vector<std::pair<float, std::size_t>> by_distance;
   for (std::size_t p = 0; p < people_.size(); ++p) {
     float distance = std::numeric_limits<float>::max();
-    for (const glm::vec3 eye : eyes)
+    for (const glm::vec3 eye : people_[p].is_away ? std::span<const glm::vec3>() : eyes)
       distance = std::min(distance, glm::distance(eye, people_[p].lead.place + glm::vec3(0, 0, 1.2f)));
     by_distance.emplace_back(distance, p);
   }

@@ -25,6 +25,9 @@ class ShownPeople {
   /// Shows or hides all of them from now on.
   void set_visible(scene::Scene& scene, bool is_visible);
 
+  /// Hides one of them who has gone, or shows them again.
+  void set_away(scene::Scene& scene, std::size_t person, bool is_away);
+
   /// The body of a person.
   const people::BodyField& body(std::size_t person) const;
   /// Speed at which a person of this body walks who is `relative` times as fast as an adult.
@@ -61,6 +64,7 @@ class ShownPeople {
     people::Lead lead;
     people::Posture posture;
     std::string name;
+    bool is_away = false;
   };
 
   void show_person(scene::Scene& scene, std::size_t person) const;

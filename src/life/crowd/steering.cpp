@@ -14,6 +14,8 @@ constexpr float near_cell_m = 1.8f;       // half of it: two rings of cells
 constexpr int max_cells_per_side = 1024;  // beyond that cells grow
 constexpr float storey_m = 1.6f;          // whose ground is farther above or below is on another level
 constexpr std::size_t max_walls = 5;      // that are cleared at once
+constexpr std::size_t max_bodies = 4;     // likewise: vehicles
+constexpr float body_reach_m = 9.0f;      // within which they are cleared
 constexpr float max_behind_m =
     0.22f;                      // a wall; who is farther behind it stands on the ground of its other side
 constexpr int separations = 3;  // rounds of pushing apart
@@ -173,7 +175,7 @@ glm::vec2 Steering::wanted_velocity(const Walkers& walkers, std::size_t number, 
 glm::vec2 Steering::steered(const Walkers& walkers, std::size_t number, const Walls& walls,
                             std::span<const MovingBody> bodies, const Around& around, float step_s) const {
   const Sorted& self = sorted_[number];
-  std::array<VelocityHalfPlane, max_walls + std::size_t(max_neighbours) + 4> planes;
+  std::array<VelocityHalfPlane, max_walls + std::size_t(max_neighbours) + max_bodies> planes;
   std::size_t used = 0;
   const float wall_reach = rules_.wall_horizon_s * walkers.free_speed[self.index] + 0.1f;
   for (const std::uint32_t w : walls.near(self.position)) {
@@ -185,11 +187,20 @@ glm::vec2 Steering::steered(const Walkers& walkers, std::size_t number, const Wa
     if (used == max_walls) break;
   }
   const std::size_t hard = used;
+  std::array<std::pair<float, const MovingBody*>, max_bodies> near_bodies;  // nearest first
+  std::size_t body_count = 0;
   for (const MovingBody& body : bodies) {
-    if (used == hard + 4) break;
     if (self.height_m < body.bottom_m || self.height_m > body.top_m) continue;
+    const float away_m =
+        glm::distance(nearest_on_segment(body.a, body.b, self.position), self.position) - body.radius_m;
+    if (away_m > body_reach_m || (body_count == max_bodies && away_m >= near_bodies.back().first)) continue;
+    std::size_t at = body_count < max_bodies ? body_count++ : max_bodies - 1;
+    for (; at > 0 && near_bodies[at - 1].first > away_m; --at) near_bodies[at] = near_bodies[at - 1];
+    near_bodies[at] = {away_m, &body};
+  }
+  for (std::size_t b = 0; b < body_count; ++b) {
+    const MovingBody& body = *near_bodies[b].second;
     const glm::vec2 to = nearest_on_segment(body.a, body.b, self.position) - self.position;
-    if (glm::dot(to, to) > 100.0f) continue;
     planes[used++] = clear_of_disc({to, self.velocity - body.velocity, self.radius_m + body.radius_m},
                                    self.velocity, 2.0f * rules_.horizon_s, step_s, 1.0f);
   }

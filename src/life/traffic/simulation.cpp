@@ -20,7 +20,10 @@ constexpr float crossing_looked_for_m = 12.0f;  // beside the braking distance
 constexpr float before_stripes_m = 1.0f, beside_stripes_m = 0.3f;
 constexpr float slow_ahead = 2.0f;  // m/s of the vehicle ahead: a crossing before it might be stood on
 constexpr float bridge_m = 3.0f;
-constexpr float touching_m = 0.2f;  // no vehicle comes nearer to another, whatever the model says
+constexpr float over_line_m = 0.3f;    // who is farther past a stop line drives on
+constexpr float before_line_m = 1.0f;  // of the place at which a driver aims
+constexpr float tram_soon_s = 8.0f;    // within which nobody drives onto its track
+constexpr float touching_m = 0.2f;     // no vehicle comes nearer to another, whatever the model says
 
 /// Index into the route of the first shared lane before the vehicle that it does not hold; the route's size
 /// if none.
@@ -112,6 +115,7 @@ bool Simulation::wants_right(std::size_t index) const {
   const Vehicle& vehicle = vehicles_[index];
   const std::size_t line = stop_line(vehicle, lanes_);
   if (line == vehicle.route.size() || vehicle.promised_lane >= 0) return false;
+  if (const std::optional<Stop> stop = light_ahead(vehicle); stop && must_stop(vehicle, *stop)) return false;
   const float distance = distance_to(vehicle, line, lanes_);
   if (distance > early_request_m + vehicle.speed * vehicle.speed / (2.0f * gentle_braking)) return false;
 
@@ -192,7 +196,8 @@ void Simulation::share(scene::StreetTraffic& streets) {
   streets_ = &streets;
   streets.vehicles.resize(vehicles_.size());
   streets.taken.assign(streets.crossings.size(), 0);
-  write_vehicles();
+  streets.lights.assign(streets.crossings.size(), scene::WalkLight::none);
+  write_vehicles(), write_lights();
 }
 
 void Simulation::write_vehicles() {
@@ -206,42 +211,102 @@ void Simulation::write_vehicles() {
   }
 }
 
+/// The next light before the vehicle.
+std::optional<Simulation::Stop> Simulation::light_ahead(const Vehicle& vehicle) const {
+  if (signals_.empty() || !heeds_signals) return std::nullopt;
+  float ahead_m = lanes_[std::size_t(vehicle.lane())].path.length() - vehicle.front_m;
+  for (std::size_t i = vehicle.current + 1; i < vehicle.route.size() && ahead_m < planned_ahead_m; ++i) {
+    const Signals::Gate gate = signals_.gate(vehicle.route[i]);
+    if (gate.is_lit) return Stop{i, ahead_m - gate.line_m, gate.light};
+    ahead_m += lanes_[std::size_t(vehicle.route[i])].path.length();
+  }
+  return std::nullopt;
+}
+
+/// Whether a driver stops at a light: at red before the line, at yellow where braking suffices.
+bool Simulation::must_stop(const Vehicle& vehicle, const Stop& stop) const {
+  if (stop.light == DriveLight::green || stop.line_m < -over_line_m) return false;
+  const float stopping_m = vehicle.speed * vehicle.speed / (2.0f * braking_before_people);
+  return stop.light == DriveLight::red || stop.line_m > stopping_m;
+}
+
+/// A driver who stops at a light returns the lanes of the junction that were given: others may need them.
+void Simulation::heed_signals(std::size_t index, Obstacle& nearest) {
+  Vehicle& vehicle = vehicles_[index];
+  const std::optional<Stop> stop = light_ahead(vehicle);
+  if (!stop || !must_stop(vehicle, *stop)) return;
+  const float gap_m = std::max(stop->line_m, 0.0f) + before_line_m;
+  if (gap_m < nearest.gap_m) nearest = {gap_m, 0.0f};
+  if (vehicle.held_until <= stop->turn) return;
+  for (std::size_t i = stop->turn; i < vehicle.held_until; ++i)
+    if (lanes_[std::size_t(vehicle.route[i])].is_shared) rights_.release(vehicle.route[i]);
+  vehicle.held_until = stop->turn;
+  if (vehicle.promised_lane >= 0) promised_room_m_[std::size_t(vehicle.promised_lane)] -= vehicle.room_m();
+  vehicle.promised_lane = -1;
+}
+
+/// Where the middle of the vehicle's way lies on a crossing; nothing where that is farther ahead than
+/// `seen_m`, or on another level.
+std::optional<Simulation::Stretch> Simulation::stretch_on(std::size_t index,
+                                                          const scene::StreetCrossing& crossing,
+                                                          float seen_m) const {
+  const Vehicle& vehicle = vehicles_[index];
+  const float reach_m = 0.5f * glm::distance(crossing.a, crossing.b) + crossing.half_width_m;
+  if (glm::distance(footprints_[index].centre, 0.5f * glm::vec2(crossing.a + crossing.b)) >
+          reach_m + seen_m + 0.5f * vehicle.length_m() ||
+      std::abs(crossing.a.z - vehicle.point_behind(0.0f, lanes_).z) > bridge_m)
+    return std::nullopt;
+  std::optional<Stretch> met;
+  for (float at_m = -vehicle.length_m(); at_m < seen_m + reach_m; at_m += 0.5f) {
+    if (!crossing.contains(glm::vec2(vehicle.point_behind(-at_m, lanes_)), beside_stripes_m)) {
+      if (met) break;
+      continue;
+    }
+    if (!met) met = {at_m, at_m};
+    met->to_m = at_m;
+  }
+  return met && met->from_m <= seen_m ? met : std::nullopt;
+}
+
 /// A driver stops before a crossing that people walk over or wait at, and before one that would be stood on
 /// behind what is ahead. Where there is no stopping any more, or the vehicle is on it, the crossing is taken.
 void Simulation::heed_crossings(std::size_t index, Obstacle& nearest) {
   const Vehicle& vehicle = vehicles_[index];
-  const float half_m = 0.5f * vehicle.length_m(),
-              stopping_m = vehicle.speed * vehicle.speed / (2.0f * braking_before_people);
-  const float seen_m = stopping_m + crossing_looked_for_m;
-  const glm::vec2 middle = footprints_[index].centre;
+  const float stopping_m = vehicle.speed * vehicle.speed / (2.0f * braking_before_people);
   for (std::size_t c = 0; c < streets_->crossings.size(); ++c) {
-    const scene::StreetCrossing& crossing = streets_->crossings[c];
-    const float reach_m = 0.5f * glm::distance(crossing.a, crossing.b) + crossing.half_width_m;
-    if (glm::distance(middle, 0.5f * glm::vec2(crossing.a + crossing.b)) > reach_m + seen_m + half_m ||
-        std::abs(crossing.a.z - vehicle.point_behind(0.0f, lanes_).z) > bridge_m)
-      continue;
-    // Where the middle of the vehicle's way lies on the crossing, from the front bumper.
-    float from_m = -1.0f, to_m = -1.0f;
-    bool is_met = false;
-    for (float at_m = -vehicle.length_m(); at_m < seen_m + reach_m; at_m += 0.5f) {
-      if (!crossing.contains(glm::vec2(vehicle.point_behind(-at_m, lanes_)), beside_stripes_m)) {
-        if (is_met) break;
-        continue;
-      }
-      if (!is_met) from_m = at_m;
-      is_met = true, to_m = at_m;
-    }
-    if (!is_met || from_m > seen_m) continue;
-    const float stop_m = from_m - before_stripes_m;
+    const std::optional<Stretch> met =
+        stretch_on(index, streets_->crossings[c], stopping_m + crossing_looked_for_m);
+    if (!met) continue;
+    const float stop_m = met->from_m - before_stripes_m;
     const bool can_stop = stop_m > 0.0f && stop_m >= stopping_m;
     const bool would_stand =
-        nearest.gap_m < to_m + vehicle.length_m() + before_stripes_m && nearest.speed < slow_ahead;
+        nearest.gap_m < met->to_m + vehicle.length_m() + before_stripes_m && nearest.speed < slow_ahead;
     if (can_stop && (streets_->people[c] != 0 || would_stand)) {
       if (stop_m < nearest.gap_m) nearest = {stop_m, 0.0f};
     } else if (!can_stop) {
       streets_->taken[c] = 1;
     }
   }
+}
+
+/// A driver stops before a track on which a tram comes, and before one that would be stood on.
+void Simulation::heed_rails(std::size_t index, Obstacle& nearest) {
+  const Vehicle& vehicle = vehicles_[index];
+  const float stopping_m = vehicle.speed * vehicle.speed / (2.0f * braking_before_people);
+  for (const scene::RailCrossing& rail : streets_->rail_crossings) {
+    const std::optional<Stretch> met = stretch_on(index, rail.strip, stopping_m + crossing_looked_for_m);
+    if (!met) continue;
+    const float stop_m = met->from_m - before_stripes_m;
+    const bool would_stand =
+        nearest.gap_m < met->to_m + vehicle.length_m() + before_stripes_m && nearest.speed < slow_ahead;
+    if (stop_m > 0.0f && stop_m >= stopping_m && (rail.tram_in_s < tram_soon_s || would_stand) &&
+        stop_m < nearest.gap_m)
+      nearest = {stop_m, 0.0f};
+  }
+}
+
+void Simulation::write_lights() {
+  if (!signals_.empty()) streets_->lights = signals_.walk_lights();
 }
 
 /// The speed from which gentle braking reaches every slower place ahead in time.
@@ -290,18 +355,23 @@ void Simulation::move(std::size_t index) {
 
 void Simulation::step() {
   note_presences();
+  if (!signals_.empty())
+    signals_.step(step_s, streets_ ? std::span<const scene::RailCrossing>(streets_->rail_crossings)
+                                   : std::span<const scene::RailCrossing>());
   settle_rights();
   if (streets_) std::ranges::fill(streets_->taken, std::uint8_t(0));
   for (std::size_t i = 0; i < vehicles_.size(); ++i) {
     Vehicle& vehicle = vehicles_[i];
     Obstacle obstacle = obstacle_ahead(i);
-    if (streets_ && streets_->has_people) heed_crossings(i, obstacle);
+    heed_signals(i, obstacle);
+    if (streets_) heed_rails(i, obstacle);
+    if (streets_ && (streets_->has_people || !signals_.empty())) heed_crossings(i, obstacle);
     const float wish = free_acceleration(driver_, vehicle.speed, wanted_speed(vehicle)) -
                        interaction(driver_, vehicle.speed, obstacle.gap_m - touching_m, obstacle.speed);
     vehicle.acceleration = std::max(wish, -hardest_braking);
   }
   for (std::size_t i = 0; i < vehicles_.size(); ++i) move(i);
-  if (streets_) write_vehicles();
+  if (streets_) write_vehicles(), write_lights();
 }
 
 }  // namespace parvis::traffic

@@ -1,10 +1,12 @@
 // Simulation of the vehicles on a road graph, in fixed time steps.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "land/roads/street_crossings.h"
 #include "life/traffic/car_following.h"
+#include "life/traffic/signals.h"
 #include "life/traffic/vehicle.h"
 #include "scene/action/event_queue.h"
 
@@ -25,9 +27,15 @@ class Simulation {
   std::size_t spread_vehicles(std::size_t wanted, std::uint64_t seed);
   /// Advances the simulation by `step_s`. Allocates no memory.
   void step();
-  /// Gives way to people on the crossings of `streets` from now on, and writes there which are taken by
-  /// vehicles, and where those are. It must outlive the simulation.
+  /// Sets traffic lights, which vehicles obey from now on.
+  void set_signals(Signals signals) { signals_ = std::move(signals); }
+  const Signals& signals() const { return signals_; }  ///< those set
+  /// Gives way to people on the crossings of `streets` and to trams from now on, and writes there which
+  /// crossings are taken by vehicles, what lights people see, and where vehicles are. It must outlive the
+  /// simulation.
   void share(scene::StreetTraffic& streets);
+  /// False: vehicles drive as if all lights were green.
+  bool heeds_signals = true;
 
   /// Lanes of the road graph after streets are cut.
   const std::vector<DrivingLane>& lanes() const { return lanes_; }
@@ -46,7 +54,22 @@ class Simulation {
   void ask_for_right(Vehicle& vehicle, std::size_t index);
   bool has_room(const Vehicle& vehicle, std::size_t index, int lane) const;
   Obstacle obstacle_ahead(std::size_t index) const;
+  struct Stretch {
+    float from_m, to_m;  ///< from the front bumper
+  };
+  struct Stop {
+    std::size_t turn = 0;  ///< index into the route
+    float line_m = 0.0f;   ///< from the front bumper
+    DriveLight light = DriveLight::green;
+  };
+  std::optional<Stop> light_ahead(const Vehicle& vehicle) const;
+  bool must_stop(const Vehicle& vehicle, const Stop& stop) const;
+  void heed_signals(std::size_t index, Obstacle& nearest);
+  std::optional<Stretch> stretch_on(std::size_t index, const scene::StreetCrossing& crossing,
+                                    float seen_m) const;
   void heed_crossings(std::size_t index, Obstacle& nearest);
+  void heed_rails(std::size_t index, Obstacle& nearest);
+  void write_lights();
   void write_vehicles();
   float wanted_speed(const Vehicle& vehicle) const;
   bool would_touch(std::size_t index, float distance_m) const;
@@ -65,6 +88,7 @@ class Simulation {
   std::vector<Footprint> footprints_;   ///< of the vehicles, as far as they have moved in this step
   std::vector<std::size_t> from_west_;  ///< vehicles in the order of x, at the step's beginning
   float longest_reach_m_ = 0.0f;        ///< between the middles of two vehicles that touch
+  Signals signals_;
   scene::StreetTraffic* streets_ = nullptr;
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "life/traffic/signal_masts.h"
+
 namespace parvis::traffic {
 
 namespace {
@@ -18,13 +20,20 @@ std::vector<VehicleShape> shapes_of(const TrafficDemand& demand) {
 
 }  // namespace
 
-Traffic::Traffic(const scene::Scene& scene) {
+Traffic::Traffic(const scene::Scene& scene, std::span<const scene::StreetCrossing> crossings) {
   const TrafficDemand& demand = scene.data<TrafficDemand>();
   const scene::DrivingArea& area = scene.data<scene::DrivingArea>();
   std::vector<VehicleShape> shapes = shapes_of(demand);
   const bool has_models = !shapes.empty();
   simulation_ =
       std::make_unique<Simulation>(scene.roads, std::move(shapes), Area{area.centre, area.radius_m});
+  std::vector<SignalJunction> junctions;
+  for (const SignalDemand& lights : scene.items<SignalDemand>())
+    if (Result<SignalJunction> junction = signals_at(scene.roads, crossings, lights)) {
+      junctions.push_back(*std::move(junction));
+      junction_visible_.push_back(lights.is_visible);
+    }
+  simulation_->set_signals(Signals(std::move(junctions), scene.roads, crossings.size()));
   if (demand.vehicles <= 0) return;
   if (scene.roads.empty()) {
     warnings_.push_back("traffic: the scene has no roads, so no vehicle drives; add road(path=...) nodes");
@@ -56,11 +65,45 @@ void Traffic::add_vehicles(scene::Scene& scene) {
   place(scene, 0.0);
 }
 
+void Traffic::add_lamps(scene::Scene& scene) {
+  const std::vector<SignalJunction>& junctions = simulation_->signals().junctions();
+  const auto add = [&](Lamps lamps, std::shared_ptr<const scene::Model> model) {
+    if (model->parts.empty()) return;
+    lamps.object = scene.objects.size(), lamps.is_visible = junction_visible_[lamps.junction];
+    scene::Object object;
+    object.name = "traffic lamps", object.model = std::move(model);
+    object.is_dynamic = true, object.is_visible = false;
+    scene.objects.push_back(std::move(object));
+    lamps_.push_back(lamps);
+  };
+  for (std::size_t j = 0; j < junctions.size(); ++j) {
+    for (int phase = 0; phase < junctions[j].phases; ++phase)
+      for (const DriveLight light : {DriveLight::red, DriveLight::yellow, DriveLight::green})
+        add({.junction = j, .phase = phase, .drive = light}, lit_drive_lamps(junctions[j], phase, light));
+    for (int phase = -1; phase < junctions[j].phases; ++phase) {
+      const auto walk = std::ranges::find(junctions[j].walks, phase, &SignalWalk::phase);
+      if (walk == junctions[j].walks.end()) continue;
+      for (const scene::WalkLight light : {scene::WalkLight::walk, scene::WalkLight::wait})
+        add({.junction = j, .phase = phase, .is_for_people = true, .walk = light, .crossing = walk->crossing},
+            lit_walk_lamps(junctions[j], phase, light));
+    }
+  }
+  place(scene, 0.0);
+}
+
+bool Traffic::is_lit(const Lamps& lamps) const {
+  const Signals& signals = simulation_->signals();
+  return lamps.is_for_people ? signals.walk_lights()[std::size_t(lamps.crossing)] == lamps.walk
+                             : signals.light(lamps.junction, lamps.phase) == lamps.drive;
+}
+
 void Traffic::place(scene::Scene& scene, double ahead_s) const {
   const std::vector<Vehicle>& vehicles = simulation_->vehicles();
   const std::vector<DrivingLane>& lanes = simulation_->lanes();
   assert(scene.objects.size() >= first_object_ + vehicles.size());
   const bool is_visible = std::as_const(scene).data<TrafficDemand>().is_visible;
+  for (const Lamps& lamps : lamps_)
+    scene.objects[lamps.object].is_visible = lamps.is_visible && is_lit(lamps);
   const float missing = 1.0f - std::min(float(ahead_s / double(step_s)), 1.0f);
   for (std::size_t i = 0; i < vehicles.size(); ++i) {
     const Vehicle& vehicle = vehicles[i];

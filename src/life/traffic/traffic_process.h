@@ -18,11 +18,12 @@ class TrafficProcess final : public action::Process {
   }
   /// Puts vehicles on the scene's roads.
   void begin(scene::Scene& scene, action::SharedByProcesses&) override {
-    traffic_ = std::make_unique<Traffic>(scene);
+    const std::vector<scene::StreetCrossing> crossings = scene::street_crossings(scene);
+    traffic_ = std::make_unique<Traffic>(scene, crossings);
     for (const std::string& warning : traffic_->warnings()) warn(error("{}", warning));
-    traffic_->add_vehicles(scene);
+    traffic_->add_vehicles(scene), traffic_->add_lamps(scene);
     streets_ = std::make_shared<scene::StreetTraffic>();
-    streets_->crossings = scene::street_crossings(scene);
+    streets_->crossings = crossings;
     streets_->people.assign(streets_->crossings.size(), 0);
     traffic_->share(*streets_);
     scene.data<scene::SharedStreets>().now = streets_;
@@ -32,6 +33,7 @@ class TrafficProcess final : public action::Process {
 
   /// The traffic after `begin`.
   const Traffic& traffic() const { return *traffic_; }
+  Traffic& traffic() { return *traffic_; }  ///< likewise, for benches' controls
 
  private:
   std::shared_ptr<scene::StreetTraffic> streets_;

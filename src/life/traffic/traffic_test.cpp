@@ -7,36 +7,13 @@
 
 #include "land/roads/road_builder.h"
 #include "life/traffic/street_ends.h"
+#include "life/traffic/test_cars.h"
 #include "life/traffic/traffic_process.h"
 #include "scene/action/scene_clock.h"
 #include "scene/data/path.h"
 
 namespace parvis::traffic {
 namespace {
-
-void add_box(scene::Model& model, int node, glm::vec3 low, glm::vec3 high) {
-  scene::Part part;
-  part.node = node;
-  part.mesh.positions = {low, {high.x, low.y, low.z}, {low.x, high.y, high.z}, high};
-  part.mesh.indices = {0, 1, 2, 1, 3, 2};
-  model.parts.push_back(std::move(part));
-}
-
-/// A body with four wheels on nodes of their own, x forward.
-std::shared_ptr<const scene::Model> car_model(float length, float width) {
-  auto model = std::make_shared<scene::Model>();
-  add_box(*model, 0, {-0.5f * length, -0.5f * width, 0.0f}, {0.5f * length, 0.5f * width, 1.5f});
-  for (const float x : {-0.3f, 0.3f})
-    for (const float y : {-0.4f, 0.4f}) {
-      scene::ModelNode node;
-      node.name = x > 0.0f ? "Wheel-front" : "wheel_back";
-      node.parent = 0;
-      node.translation = {x * length, y * width, 0.3f};
-      model->nodes.push_back(node);
-      add_box(*model, int(model->nodes.size()) - 1, glm::vec3(-0.3f), glm::vec3(0.3f));
-    }
-  return model;
-}
 
 scene::Road road(std::vector<glm::vec3> path, int lanes = 1) {
   scene::Road result;
@@ -50,7 +27,7 @@ scene::Scene scene_of(const std::vector<scene::Road>& roads, int vehicles) {
   Result<scene::RoadGraph> graph = scene::build_road_graph(roads);
   EXPECT_TRUE(graph.ok());
   scene.roads = std::move(*graph);
-  scene.data<TrafficDemand>() = {vehicles, 7, {car_model(4.4f, 1.8f), car_model(5.4f, 2.0f)}};
+  scene.data<TrafficDemand>() = {vehicles, 7, {test_car(4.4f, 1.8f), test_car(5.4f, 2.0f)}};
   return scene;
 }
 
@@ -137,7 +114,7 @@ TEST(Traffic, BusesHoldNobodyUp) {
   std::vector<scene::Road> roads = grid(4, 150.0f);
   for (scene::Road& road : roads) road.lane_width_m = 3.4f;
   scene::Scene scene = scene_of(roads, 30);
-  scene.data<TrafficDemand>().models.push_back(car_model(12.0f, 2.5f));
+  scene.data<TrafficDemand>().models.push_back(test_car(12.0f, 2.5f));
   scene.data<scene::DrivingArea>() = {{375.0f, 375.0f}, 250.0f};
   Traffic traffic(scene);
   ASSERT_EQ(traffic.vehicle_count(), 30u);
@@ -230,7 +207,7 @@ TEST(Traffic, BodiesTurnSmoothly) {
 }
 
 TEST(Traffic, WheelsRollAndSteer) {
-  const VehicleShape shape = vehicle_shape(car_model(4.0f, 1.8f));
+  const VehicleShape shape = vehicle_shape(test_car(4.0f, 1.8f));
   ASSERT_EQ(shape.wheels.size(), 4u);
   EXPECT_NEAR(shape.wheelbase_m(), 2.4f, 1e-4f);
   std::vector<glm::mat4> pose = shape.rest_pose;

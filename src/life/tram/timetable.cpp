@@ -60,7 +60,7 @@ Moment Timetable::at(double time_s) const {
   if (time_s >= arrives_s_[next]) {
     const double since_s = time_s - arrives_s_[next], left_s = leaves_s_[next] - time_s;
     const float doors = std::clamp(float(std::min(since_s, left_s)) / doors_move_s, 0.0f, 1.0f);
-    return {place_m(next), 0.0f, stop_at_[next], doors * doors * (3.0f - 2.0f * doors)};
+    return {place_m(next), 0.0f, stop_at_[next], doors * doors * (3.0f - 2.0f * doors), left_s};
   }
   if (next == 0) return {place_m(0), speed_.front(), -1, 0.0f};
   // Constant acceleration between two places.
@@ -68,6 +68,11 @@ Moment Timetable::at(double time_s) const {
                a = double(speed_[next] - speed_[next - 1]) / (arrives_s_[next] - leaves_s_[next - 1]);
   const double v = double(speed_[next - 1]);
   return {place_m(next - 1) + v * t + 0.5 * a * t * t, float(v + a * t), -1, 0.0f};
+}
+
+double Timetable::reaches_s(float front_m) const {
+  const long place = long(std::ceil((front_m - first_m_) / step_m));
+  return arrives_s_[std::size_t(std::clamp(place, 0l, long(arrives_s_.size()) - 1))];
 }
 
 float Timetable::speed_limit_m_s(float front_m) const {

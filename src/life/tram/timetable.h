@@ -26,8 +26,9 @@ struct Stop {
 struct Moment {
   double front_m = 0.0;  ///< along the line
   float speed_m_s = 0.0f;
-  int stop = -1;       ///< at which it dwells; -1: none
-  float doors = 0.0f;  ///< 0 closed, 1 open
+  int stop = -1;             ///< at which it dwells; -1: none
+  float doors = 0.0f;        ///< 0 closed, 1 open
+  double leaves_in_s = 0.0;  ///< of a stop
 };
 
 /// One run along a line.
@@ -41,6 +42,9 @@ class Timetable {
   double duration_s() const { return arrives_s_.back(); }  ///< of the run
   /// The tram's state `time_s` after the run began; before and after it: as at its ends.
   Moment at(double time_s) const;
+
+  /// When the front reaches a place of the line, seconds after the run began.
+  double reaches_s(float front_m) const;
 
   const std::vector<Stop>& stops() const { return stops_; }  ///< in their order
   /// The highest speed at which a front may be at a place of the line, without regard to stops, m/s.

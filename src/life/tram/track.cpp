@@ -18,6 +18,7 @@ constexpr float half_paving_m = 1.30f;
 constexpr float head_m = 0.056f, groove_m = 0.042f, groove_depth_m = 0.02f;
 constexpr float wire_m = 5.5f, between_masts_m = 30.0f, mast_m = 6.4f, mast_beside_m = 2.45f;
 constexpr float platform_m = 0.30f, platform_breadth_m = 2.6f, gap_m = 0.05f;
+constexpr float ramp_m = 3.6f, back_step_m = 0.4f;  // beyond its ends; along its back
 
 /// Chaikin's corner cutting: each corner becomes two of half its angle.
 scene::Path corners_cut(const scene::Path& path) {
@@ -81,6 +82,26 @@ class TrackBuilder {
     for (const auto& f :
          {std::array{1, 3, 7, 5}, {0, 4, 6, 2}, {2, 6, 7, 3}, {0, 1, 5, 4}, {4, 5, 7, 6}, {0, 2, 3, 1}})
       quad(material, p(f[0]), p(f[1]), p(f[2]), p(f[3]), {0, 0}, {1, 1});
+  }
+
+  /// A slope from `high` above the line at one place down to it at another, with its sides.
+  void ramp(Material material, float from_m, float to_m, float y0, float y1, float high) {
+    const bool is_mirrored = (to_m > from_m) != (y1 > y0);
+    const auto at = [&](float along_m, float y, float z) {
+      const vec3 left = -scene::right_of(line_.direction_at(std::clamp(along_m, 0.0f, line_.length())));
+      const float inside_m = std::clamp(along_m, 0.0f, line_.length());
+      const vec3 ahead(glm::vec2(line_.direction_at(inside_m)), 0.0f);
+      return line_.at(inside_m) + (along_m - inside_m) * ahead + y * left + vec3(0, 0, z);
+    };
+    const auto face = [&](vec3 a, vec3 b, vec3 c, vec3 d) {
+      if (is_mirrored)
+        quad(material, a, d, c, b, {0, 0}, {1, 1});
+      else
+        quad(material, a, b, c, d, {0, 0}, {1, 1});
+    };
+    face(at(from_m, y0, high), at(to_m, y0, 0.0f), at(to_m, y1, 0.0f), at(from_m, y1, high));
+    face(at(from_m, y0, 0.0f), at(to_m, y0, 0.0f), at(from_m, y0, high), at(from_m, y0, 0.0f));
+    face(at(from_m, y1, 0.0f), at(from_m, y1, high), at(to_m, y1, 0.0f), at(from_m, y1, 0.0f));
   }
 
   std::vector<Mesh> take() { return std::move(meshes_); }
@@ -176,27 +197,42 @@ void build_platform(TrackBuilder& track, const Platform& platform) {
       track.strip(material, b, a, platform.from_m, platform.to_m);
   };
   lay(kerb, {near, 0.0f}, {near, top}), lay(kerb, {near, top}, {edge, top}),
-      lay(paving, {edge, top}, {far, top}), lay(kerb, {far, top}, {far, 0.0f});
-  for (const float end : {platform.from_m, platform.to_m})  // ramps
-    track.box(kerb, end, {-0.04f, std::min(near, far), 0.0f}, {0.04f, std::max(near, far), top - 0.002f});
+      lay(paving, {edge, top}, {far, top}), lay(kerb, {far, top}, {far, 0.5f * top});
+  const float back = far + sign * back_step_m;
+  lay(kerb, {far, 0.5f * top}, {back, 0.5f * top}), lay(kerb, {back, 0.5f * top}, {back, 0.0f});
+  for (const float step_end : {platform.from_m, platform.to_m})
+    track.box(kerb, step_end, {-0.04f, std::min(far, back), 0.0f},
+              {0.04f, std::max(far, back), 0.5f * top - 0.002f});
+  track.ramp(kerb, platform.from_m, platform.from_m - ramp_m, near, far, top);
+  track.ramp(kerb, platform.to_m, platform.to_m + ramp_m, near, far, top);
   // A shelter, open to the track, and the stop's sign.
-  const float middle = 0.5f * (platform.from_m + platform.to_m), back = near + sign * 2.35f,
+  const float middle = 0.5f * (platform.from_m + platform.to_m), rear = near + sign * 2.35f,
               front = near + sign * 0.95f;
   const auto at = [&](Material material, float x0, float x1, float y0, float y1, float z0, float z1) {
     track.box(material, middle, {x0, std::min(y0, y1), z0}, {x1, std::max(y0, y1), z1});
   };
   for (const float x : {-2.4f, 0.0f, 2.4f})
-    at(post, x - 0.04f, x + 0.04f, back - 0.04f, back + 0.04f, top, top + 2.45f);
-  at(post, -2.6f, 2.6f, front, back + 0.1f * sign, top + 2.45f, top + 2.53f);
-  at(pane, -2.35f, 2.35f, back - 0.008f, back + 0.008f, top + 0.25f, top + 2.25f);
-  at(post, -1.6f, 1.6f, back - 0.50f * sign, back - 0.12f * sign, top + 0.43f, top + 0.47f);
+    at(post, x - 0.04f, x + 0.04f, rear - 0.04f, rear + 0.04f, top, top + 2.45f);
+  at(post, -2.6f, 2.6f, front, rear + 0.1f * sign, top + 2.45f, top + 2.53f);
+  at(pane, -2.35f, 2.35f, rear - 0.008f, rear + 0.008f, top + 0.25f, top + 2.25f);
+  at(post, -1.6f, 1.6f, rear - 0.50f * sign, rear - 0.12f * sign, top + 0.43f, top + 0.47f);
   for (const float x : {-1.4f, 1.4f})
-    at(post, x - 0.03f, x + 0.03f, back - 0.42f * sign, back - 0.2f * sign, top, top + 0.43f);
+    at(post, x - 0.03f, x + 0.03f, rear - 0.42f * sign, rear - 0.2f * sign, top, top + 0.43f);
   at(post, 4.0f, 4.08f, front, front + 0.08f * sign, top, top + 2.9f);
   at(kerb, 3.78f, 4.30f, front + 0.01f * sign, front + 0.06f * sign, top + 2.35f, top + 2.87f);
 }
 
 }  // namespace
+
+PlatformEdge platform_edge(const scene::MeasuredPath& line, const Platform& platform) {
+  const float sign = platform.is_on_left ? 1.0f : -1.0f;
+  const auto at = [&](float along_m) {
+    const vec3 left = -scene::right_of(line.direction_at(along_m));
+    return line.at(along_m) + sign * (0.5f * width_m + gap_m) * left + vec3(0, 0, platform_m + paving_m);
+  };
+  const vec3 left = -scene::right_of(line.direction_at(0.5f * (platform.from_m + platform.to_m)));
+  return {at(platform.from_m), at(platform.to_m), sign * glm::vec2(left), platform_breadth_m};
+}
 
 scene::Path smooth_line(const scene::Path& corners, float radius_m) {
   scene::Path line = scene::without_repeats(corners);

@@ -16,6 +16,16 @@ struct Platform {
   bool is_on_left = false;
 };
 
+/// A platform's edge beside the tram, on its surface.
+struct PlatformEdge {
+  glm::vec3 from, to;  ///< ends
+  glm::vec2 away;      ///< unit vector from the track onto the platform
+  float breadth_m;
+};
+
+/// The edge of a platform of this line, whose points lie on the ground.
+PlatformEdge platform_edge(const scene::MeasuredPath& line, const Platform& platform);
+
 /// The centre line through the corners of a path, metres: arcs of `radius_m` in place of corners (smaller
 /// where the path is too short for them), with no angle of more than 2 degrees.
 scene::Path smooth_line(const scene::Path& corners, float radius_m);
@@ -26,7 +36,8 @@ scene::Path smooth_line(const scene::Path& corners, float radius_m);
 Result<scene::MeasuredPath> driveable(scene::Path line);
 
 /// Rails in grooved paving, flush with it; the paving is 3 cm thick and lies on the line. Wire and masts
-/// above it where `has_wire`; platforms 0.30 m high with a shelter each.
+/// above it where `has_wire`; platforms 0.30 m high with a shelter each, ramps at
+/// their ends and a step along their backs.
 std::shared_ptr<const scene::Model> track_model(const scene::MeasuredPath& line, bool has_wire,
                                                 std::span<const Platform> platforms);
 

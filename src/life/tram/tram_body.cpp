@@ -324,6 +324,18 @@ std::shared_ptr<const scene::Model> section_model(SectionKind kind, glm::vec3 co
   return SectionBuilder(kind, colour).build();
 }
 
+std::vector<float> doors_behind_front() {
+  std::vector<float> doors;
+  float before_m = 0.0f;
+  for (std::size_t section = 0; section < section_count; ++section) {
+    const float long_m = section_length_m[section], middle_m = door_from_end_m + 0.5f * door_m;
+    if (kind_of_section[section] == SectionKind::hung)
+      doors.insert(doors.end(), {before_m + middle_m, before_m + long_m - middle_m});
+    before_m += long_m;
+  }
+  return doors;
+}
+
 std::vector<glm::mat4> section_pose(const scene::Model& model, float doors, bool is_left_side,
                                     double travelled_m) {
   std::vector<glm::mat4> pose = scene::rest_pose(model);

@@ -6,6 +6,7 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <memory>
+#include <vector>
 
 #include "scene/data/model.h"
 #include "scene/data/path.h"
@@ -38,6 +39,9 @@ std::shared_ptr<const scene::Model> section_model(SectionKind kind, glm::vec3 co
 /// Poses of the nodes of a section: doors open by 0..1 on one side, wheels turned after `travelled_m`.
 std::vector<glm::mat4> section_pose(const scene::Model& model, float doors, bool is_left_side,
                                     double travelled_m);
+
+/// Distances of the middles of the doors of a tram from its front, metres.
+std::vector<float> doors_behind_front();
 
 /// world_from_model of all sections of a tram whose front is at `front_m` of a track.
 std::array<glm::mat4, section_count> placed_sections(const scene::MeasuredPath& track, double front_m);

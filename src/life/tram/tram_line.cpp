@@ -7,13 +7,27 @@
 
 namespace parvis::tram {
 
-int TramLine::trams() const { return int(std::ceil(timetable->duration_s() / headway_s)); }
+int TramLine::trams() const { return int(std::ceil((timetable->duration_s() + spare_s) / headway_s)); }
 
-double TramLine::run_s(int tram, double time_s) const {
+double TramLine::since_start_s(int tram, double time_s) const {
   const double round_s = double(trams()) * headway_s;
-  double run = std::fmod(time_s + start_s - double(tram) * headway_s, round_s);
-  if (run < 0.0) run += round_s;
+  const double run = std::fmod(time_s + start_s - double(tram) * headway_s, round_s);
+  return run < 0.0 ? run + round_s : run;
+}
+
+double TramLine::run_s(int tram, double time_s, double late_s) const {
+  const double run = since_start_s(tram, time_s) - late_s;
   return run <= timetable->duration_s() ? run : -1.0;
+}
+
+double TramLine::until_s(int tram, double time_s, double late_s, float from_m, float to_m) const {
+  const double since = since_start_s(tram, time_s), reaches = timetable->reaches_s(from_m);
+  const double next_run_s = double(trams()) * headway_s - since + reaches;
+  const double run = since - late_s;
+  if (run > timetable->duration_s()) return next_run_s;
+  const double front_m = timetable->at(run).front_m;
+  if (front_m < double(from_m)) return std::max(reaches - run, 0.0);
+  return front_m - double(length_m) <= double(to_m) ? 0.0 : next_run_s;
 }
 
 void TramLine::hash(ContentHash& hash) const {

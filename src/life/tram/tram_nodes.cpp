@@ -68,13 +68,16 @@ scene::NodeSchema stop_schema() {
               "A stop of the tram line around it: a platform with a shelter, on the side of the track on "
               "which the position lies; the middle of the tram "
               "stops beside it.",
-          .attributes = {scene::attribute::vec3("position", "beside the track, at most 8 m from its middle")
-                             .in("m")
-                             .required(),
-                         number("dwell_s", "how long trams stay; their doors take 2.5 s to open and to close")
-                             .in("s")
-                             .between(8, 600)
-                             .by_default("20")},
+          .attributes =
+              {scene::attribute::vec3("position", "beside the track, at most 8 m from its middle")
+                   .in("m")
+                   .required(),
+               number("dwell_s",
+                      "how long trams stay at least; their doors take 2.5 s to open and to close, and stay "
+                      "open while people of a crowd board")
+                   .in("s")
+                   .between(8, 600)
+                   .by_default("20")},
           .stands_in = {"tram"},
           .example =
               "tram(path=\"-120 0, 120 0\") {\n"
@@ -163,13 +166,17 @@ void build_tram(const Node& node, SceneBuilder& builder) {
   line.timetable =
       std::make_shared<const Timetable>(line.track, length_m, line.track.length(), std::move(stops),
                                         float(node.number("speed_km_h")) / 3.6f, length_m);
+  for (const Platform& platform : platforms) line.edges.push_back(platform_edge(*ground, platform));
   line.headway_s = node.number("headway_s"), line.start_s = node.number("start_s");
   line.colour = node.vec3("colour"), line.is_visible = builder.is_visible() && node.flag("visible");
-  if (const double shortest = min_headway_s(*line.timetable); line.headway_s < shortest)
+  const double shortest = min_headway_s(*line.timetable);
+  if (line.headway_s < shortest)
     return builder.fail(error_at(node.where_of("headway_s"),
                                  "tram: trams at a headway of {:.0f} s would run into each other at stops "
                                  "and in curves; this line needs {:.0f} s or more",
                                  line.headway_s, shortest));
+  constexpr double longest_wait_s = 40.0;
+  line.spare_s = std::min(longest_wait_s, line.headway_s - shortest);
   if (line.trams() > max_trams)
     return builder.fail(error_at(node.where_of("headway_s"),
                                  "tram: {} trams would be on the line at a time, at most {} are run; a "
