@@ -9,6 +9,7 @@
 #include "places/paper_city/car.h"
 #include "places/paper_city/night_lights.h"
 #include "places/paper_city/paper_script.h"
+#include "places/square/coarse_square.h"
 #include "places/square/fountain.h"
 #include "places/square/houses.h"
 #include "places/square/square_ground.h"
@@ -52,6 +53,9 @@ Status write_square(const fs::path& folder, std::uint64_t seed) {
       return scene::write_gltf(to / (car.name + ".glb"), car);
     });
   }
+  jobs.push_back(
+      [=](const fs::path& to) { return scene::write_gltf(to / "coarse.glb", make_coarse_square(seed)); });
+  jobs.push_back([](const fs::path& to) { return write_file(to / "photographs.xp", photographs_script()); });
   jobs.push_back([](const fs::path& to) { return write_file(to / "place.xp", place_script()); });
   jobs.push_back(
       [=](const fs::path& to) { return write_file(to / "square.xp", square_script(vehicle_files)); });

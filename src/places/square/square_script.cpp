@@ -174,7 +174,7 @@ std::string place_script() {
       "model(name=\"houses\", file=\"square.glb\")\n"
       "model(name=\"fountain\", file=\"fountain.glb\", position=\"{:.2f} {:.2f} {:.2f}\", heading_deg=135, "
       "reflective=1)\n{}",
-      fountain_at.x, fountain_at.y, kerb_m, lamps() + planes());
+      fountain_at.x, fountain_at.y, kerb_m, lamps());
 }
 
 std::string square_script(std::span<const std::string> vehicle_files) {
@@ -183,7 +183,7 @@ std::string square_script(std::span<const std::string> vehicle_files) {
       "//\n//   parvis view square.xp\n//   parvis render square.xp --camera square --time 20 -o square.png\n"
       "include(file=\"place.xp\")\nbouncedLight()\nexposure(value=1)\nrealism()\n"
       "reflection(method=\"multiple_environment_maps\", resolution=128)\n\n" +
-      roads() + tram() + "traffic(vehicles=14, seed=7, centre=\"12 -22 0\", radius=100) {\n";
+      planes() + roads() + tram() + "traffic(vehicles=14, seed=7, centre=\"12 -22 0\", radius=100) {\n";
   for (const std::string& file : vehicle_files)
     text += fmt::format("  model(file=\"{}\", reflective=1)\n", file);
   text += fmt::format(
