@@ -26,11 +26,11 @@ void add(scene::Model& model, const std::string& name, Mesh mesh) {
 }
 
 /// An upright rectangle of a house's front, at depth y.
-Mesh front(const House& h, float x0, float x1, float z0, float z1, float y = 0.0f) {
+Mesh front(const Building& h, float x0, float x1, float z0, float z1, float y = 0.0f) {
   return synthesis::panel(h.frame.point(x0, y, z0), (x1 - x0) * h.frame.along, {0, 0, z1 - z0}, whole);
 }
 
-void add_house(scene::Model& model, const House& h, int number) {
+void add_house(scene::Model& model, const Building& h, int number) {
   const std::string name = fmt::format("house_{}", number);
   const float eaves = h.style.eaves_m() - 0.3f;
   const bool is_arcade = h.style.ground == GroundFloor::arcade;
@@ -68,7 +68,7 @@ scene::Model make_coarse_square(std::uint64_t seed) {
   model.materials[0].name = "surface";
   add(model, "ground", synthesis::panel({-110, -60, kerb_m}, {190, 0, 0}, {0, 150, 0}, whole));
   int number = 0;
-  for (const House& house : plan_houses(seed)) {
+  for (const Building& house : plan_houses(seed)) {
     ++number;
     const glm::vec3 middle = house.frame.point(0.5f * house.width_m, 0, 0);
     if (glm::length(glm::vec2(middle)) < near_m) add_house(model, house, number);

@@ -7,7 +7,7 @@
 
 namespace parvis::square {
 
-/// What stands on the ground floor.
+/// The kind of a ground floor.
 enum class GroundFloor : std::uint8_t {
   arcade,        ///< open arches before a gallery
   blind_arcade,  ///< the same arches with shops in them

@@ -12,14 +12,14 @@ constexpr float pitch = 0.44f;  // rise per metre of a roof of tiles
 constexpr float eaves_out_m = 0.12f;
 
 /// The facade on a side of a house, as seen from there.
-Frame side_frame(const House& house, bool is_right) {
+Frame side_frame(const Building& house, bool is_right) {
   const Frame& f = house.frame;
   if (is_right) return {f.point(house.width_m, 0, 0), f.inward, -f.along};
   return {f.point(0, house.depth_m, 0), -f.inward, f.along};
 }
 
 /// A hipped roof where sides are free, gables between neighbours. The ridge runs along the front.
-void add_roof(ReliefMesh& mesh, const House& h) {
+void add_roof(ReliefMesh& mesh, const Building& h) {
   const float z = h.style.eaves_m(), out = h.style.cornice_out_m + eaves_out_m;
   const float half = 0.5f * h.depth_m, rise = pitch * (half + out);
   const float x0 = h.has_left_front ? -out : 0.0f, x1 = h.width_m + (h.has_right_front ? out : 0.0f);
@@ -41,7 +41,7 @@ void add_roof(ReliefMesh& mesh, const House& h) {
 }
 
 /// Walls without openings, where no facade stands.
-void add_blank_walls(ReliefMesh& mesh, const House& h) {
+void add_blank_walls(ReliefMesh& mesh, const Building& h) {
   const float top = h.style.eaves_m();
   const Frame front = h.frame;
   mesh.set_colour(h.style.wall * 0.92f);
@@ -62,13 +62,13 @@ void add_blank_walls(ReliefMesh& mesh, const House& h) {
 }
 
 /// The wall before which a gallery ends.
-void close_gallery(ReliefMesh& mesh, const House& h, bool is_right) {
+void close_gallery(ReliefMesh& mesh, const Building& h, bool is_right) {
   const float x = is_right ? h.width_m : 0.0f, top = h.style.ground_m, y0 = is_right ? gallery_m : 0.0f;
   mesh.set_colour(h.style.wall);
   mesh.quad(Surface::plaster, {x, y0, 0}, {x, gallery_m - y0, 0}, {x, gallery_m - y0, top}, {x, y0, top});
 }
 
-void add_chimney(ReliefMesh& mesh, const House& h, Random& random) {
+void add_chimney(ReliefMesh& mesh, const Building& h, Random& random) {
   const float x = random.uniform(0.15f, 0.85f) * h.width_m, y = random.uniform(0.35f, 0.65f) * h.depth_m;
   const float ridge = h.style.eaves_m() + pitch * 0.5f * h.depth_m;
   mesh.set_colour(h.style.wall * 0.85f);
@@ -83,7 +83,7 @@ void add_chimney(ReliefMesh& mesh, const House& h, Random& random) {
 }
 
 /// A gabled window in the front slope.
-void add_dormer(ReliefMesh& mesh, const House& h, float x, int variant) {
+void add_dormer(ReliefMesh& mesh, const Building& h, float x, int variant) {
   const float eaves = h.style.eaves_m(), out = h.style.cornice_out_m + eaves_out_m;
   const auto depth_at = [&](float z) { return (z - eaves) / pitch - out; };
   const float low = eaves + 0.55f, high = low + 1.25f, peak = high + 0.38f, half = 0.6f;
@@ -107,9 +107,9 @@ void add_dormer(ReliefMesh& mesh, const House& h, float x, int variant) {
 
 }  // namespace
 
-void add_houses(ReliefMesh& mesh, const std::vector<House>& houses, std::uint64_t seed) {
+void add_houses(ReliefMesh& mesh, const std::vector<Building>& houses, std::uint64_t seed) {
   int number = 0;
-  for (const House& house : houses) {
+  for (const Building& house : houses) {
     Random random(seed, std::uint64_t(100 + number));
     mesh.begin_group(fmt::format("house {}", ++number), house.frame);
     const bool is_arcade = house.style.ground == GroundFloor::arcade;

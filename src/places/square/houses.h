@@ -6,6 +6,6 @@
 
 namespace parvis::square {
 
-void add_houses(ReliefMesh& mesh, const std::vector<House>& houses, std::uint64_t seed);
+void add_houses(ReliefMesh& mesh, const std::vector<Building>& houses, std::uint64_t seed);
 
 }  // namespace parvis::square

@@ -64,7 +64,7 @@ class Planner {
     for (int part = 0; part < parts; ++part) {
       const int first = bays * part / parts, last = bays * (part + 1) / parts;
       const float bay_m = length / float(bays);
-      House& house = add(from + along * bay_m * float(first), along, bay_m * float(last - first));
+      Building& house = add(from + along * bay_m * float(first), along, bay_m * float(last - first));
       house.style = square_style(random_), house.bays = last - first;
       house.is_on_square = true;
       house.has_left_front = left_front && part == 0,
@@ -79,7 +79,7 @@ class Planner {
     for (float at = 0.0f; at < length - 4.0f;) {
       float width = random_.uniform(9.0f, 16.0f);
       if (length - at - width < 8.0f) width = length - at;
-      House& house = add(from + along * at, along, width);
+      Building& house = add(from + along * at, along, width);
       const glm::vec2 middle = from + along * (at + 0.5f * width);
       house.style = street_style(random_, glm::length(middle) < whole_within_m, before);
       house.bays = std::max(2, int(std::lround(width / street_bay_m)));
@@ -89,11 +89,11 @@ class Planner {
     }
   }
 
-  std::vector<House> houses;
+  std::vector<Building> houses;
 
  private:
-  House& add(glm::vec2 corner, glm::vec2 along, float width) {
-    House& house = houses.emplace_back();
+  Building& add(glm::vec2 corner, glm::vec2 along, float width) {
+    Building& house = houses.emplace_back();
     house.frame = {glm::vec3(corner, kerb_m), glm::vec3(along, 0.0f), {-along.y, along.x, 0.0f}};
     house.width_m = width, house.depth_m = depth_m;
     return house;
@@ -104,7 +104,7 @@ class Planner {
 
 }  // namespace
 
-std::vector<House> plan_houses(std::uint64_t seed) {
+std::vector<Building> plan_houses(std::uint64_t seed) {
   Planner plan(seed);
   const glm::vec2 to_east(1, 0), to_west(-1, 0), to_north(0, 1), to_south(0, -1);
   const float tram_left = tram_x - tram_half_m, tram_right = tram_x + tram_half_m;

@@ -22,7 +22,7 @@ inline constexpr float reach_m = 178.0f;    ///< to the houses that close the st
 inline constexpr glm::vec2 fountain_at{-8.0f, -4.0f};
 
 /// A house: a rectangle in plan with its front on the street.
-struct House {
+struct Building {
   Frame frame;  ///< at the left corner of the front
   float width_m = 10.0f, depth_m = 13.0f;
   FacadeStyle style;
@@ -33,6 +33,6 @@ struct House {
 };
 
 /// All houses, from a seed.
-std::vector<House> plan_houses(std::uint64_t seed);
+std::vector<Building> plan_houses(std::uint64_t seed);
 
 }  // namespace parvis::square

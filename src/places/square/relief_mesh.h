@@ -21,7 +21,7 @@ class ReliefMesh {
   /// Starts a group: triangles that follow belong to it, and stand in this frame.
   void begin_group(std::string name, const Frame& frame) { group_ = std::move(name), frame_ = frame; }
   void set_frame(const Frame& frame) { frame_ = frame; }  ///< within the group
-  const Frame& frame() const { return frame_; }
+  const Frame& frame() const { return frame_; }           ///< in which triangles stand
   /// The colour that follows (linear albedo of sheets that are grey).
   void set_colour(glm::vec3 albedo) { tint_ = albedo / sheet_albedo; }
 
@@ -29,6 +29,7 @@ class ReliefMesh {
   void quad(Surface surface, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d);
   /// The same with the texture coordinates of its corners.
   void quad(Surface surface, const glm::vec3 (&corners)[4], const glm::vec2 (&uvs)[4]);
+  /// A triangle in the same way as the first quad.
   void triangle(Surface surface, glm::vec3 a, glm::vec3 b, glm::vec3 c);
   /// An upright rectangle that looks out of the wall, at depth y.
   void face(Surface surface, float x0, float x1, float z0, float z1, float y = 0.0f);
@@ -42,7 +43,7 @@ class ReliefMesh {
   /// A mesh in the frame, in the present colour.
   void mesh(Surface surface, const Mesh& mesh);
 
-  std::size_t triangle_count() const { return triangles_; }
+  std::size_t triangle_count() const { return triangles_; }  ///< of all groups
   /// Moves all meshes into parts of `model`, named "group material", on node 0.
   void move_into(scene::Model& model);
 

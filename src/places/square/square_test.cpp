@@ -13,19 +13,19 @@ namespace parvis::square {
 namespace {
 
 /// Corners of a house in plan.
-std::array<glm::vec2, 4> corners(const House& h) {
+std::array<glm::vec2, 4> corners(const Building& h) {
   const auto at = [&](float x, float y) { return glm::vec2(h.frame.point(x, y, 0)); };
   return {at(0, 0), at(h.width_m, 0), at(h.width_m, h.depth_m), at(0, h.depth_m)};
 }
 
-bool overlaps(const House& house, glm::vec2 low, glm::vec2 high) {
+bool overlaps(const Building& house, glm::vec2 low, glm::vec2 high) {
   glm::vec2 min(1e9f), max(-1e9f);
   for (const glm::vec2 p : corners(house)) min = glm::min(min, p), max = glm::max(max, p);
   return min.x < high.x && max.x > low.x && min.y < high.y && max.y > low.y;
 }
 
 TEST(Square, HousesLeaveTheSquareAndItsStreetsFree) {
-  for (const House& house : plan_houses(1)) {
+  for (const Building& house : plan_houses(1)) {
     const float out = reach_m - 14.0f, d = 0.05f;
     const std::pair<glm::vec2, glm::vec2> free[] = {
         {{west_m, avenue_north_line_m}, {street_west_line_m, north_m}},
@@ -41,7 +41,7 @@ TEST(Square, HousesLeaveTheSquareAndItsStreetsFree) {
 
 TEST(Square, FacadesLookOntoTheirStreets) {
   int on_square = 0;
-  for (const House& house : plan_houses(1)) {
+  for (const Building& house : plan_houses(1)) {
     if (!house.is_on_square) continue;
     ++on_square;
     const glm::vec2 middle(house.frame.point(0.5f * house.width_m, 0, 0));
