@@ -1,16 +1,20 @@
 #include "formats/ifc/ifc_sweeps.h"
 
+#include <ifcpp/IFC4/include/IfcAxis2Placement3D.h>
 #include <ifcpp/IFC4/include/IfcBoolean.h>
 #include <ifcpp/IFC4/include/IfcBooleanResult.h>
 #include <ifcpp/IFC4/include/IfcCartesianPoint.h>
 #include <ifcpp/IFC4/include/IfcClosedShell.h>
+#include <ifcpp/IFC4/include/IfcCompositeProfileDef.h>
 #include <ifcpp/IFC4/include/IfcDirection.h>
 #include <ifcpp/IFC4/include/IfcExtrudedAreaSolidTapered.h>
 #include <ifcpp/IFC4/include/IfcFace.h>
 #include <ifcpp/IFC4/include/IfcFaceOuterBound.h>
 #include <ifcpp/IFC4/include/IfcFacetedBrep.h>
+#include <ifcpp/IFC4/include/IfcFixedReferenceSweptAreaSolid.h>
 #include <ifcpp/IFC4/include/IfcLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcParameterValue.h>
+#include <ifcpp/IFC4/include/IfcPlane.h>
 #include <ifcpp/IFC4/include/IfcPolyLoop.h>
 #include <ifcpp/IFC4/include/IfcPolyline.h>
 #include <ifcpp/IFC4/include/IfcPositiveLengthMeasure.h>
@@ -18,6 +22,7 @@
 #include <ifcpp/IFC4/include/IfcRepresentation.h>
 #include <ifcpp/IFC4/include/IfcRevolvedAreaSolidTapered.h>
 #include <ifcpp/IFC4/include/IfcStyledItem.h>
+#include <ifcpp/IFC4/include/IfcSurfaceCurveSweptAreaSolid.h>
 #include <ifcpp/IFC4/include/IfcSweptDiskSolid.h>
 #include <ifcpp/geometry/Carve/GeometryConverter.h>
 #include <ifcpp/model/BuildingModel.h>
@@ -93,19 +98,11 @@ std::vector<dvec3> without_repeats(const std::vector<dvec3>& path) {
   return points;
 }
 
-/// The rings of a tube along a path: each lies in the plane between its two pieces, so that the pieces have
-/// the same cross section; none is turned against the one before.
-std::vector<Ring> tube(const std::vector<dvec3>& path, double radius) {
+/// A cross section swept along a path from its first point on: each ring lies in the plane between its two
+/// pieces, so that the pieces have the same cross section; none is turned against the one before.
+std::vector<Ring> swept(Ring ring, const std::vector<dvec3>& path) {
   std::vector<dvec3> along;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) along.push_back(glm::normalize(path[i + 1] - path[i]));
-  const dvec3 first = along.front();
-  const dvec3 other = std::abs(first.z) < 0.9 ? dvec3(0, 0, 1) : dvec3(1, 0, 0);
-  const dvec3 x = glm::normalize(glm::cross(other, first)), y = glm::cross(first, x);
-  Ring ring;
-  for (int i = 0; i < disk_corners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / disk_corners;
-    ring.push_back(path.front() + radius * (std::cos(angle) * x + std::sin(angle) * y));
-  }
   std::vector<Ring> rings{ring};
   constexpr double sharpest = 0.15;  // cosine of half a turn: what turns back is cut off square
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -116,6 +113,19 @@ std::vector<Ring> tube(const std::vector<dvec3>& path, double radius) {
     rings.push_back(ring);
   }
   return rings;
+}
+
+/// The rings of a tube along a path.
+std::vector<Ring> tube(const std::vector<dvec3>& path, double radius) {
+  const dvec3 first = glm::normalize(path[1] - path[0]);
+  const dvec3 other = std::abs(first.z) < 0.9 ? dvec3(0, 0, 1) : dvec3(1, 0, 0);
+  const dvec3 x = glm::normalize(glm::cross(other, first)), y = glm::cross(first, x);
+  Ring ring;
+  for (int i = 0; i < disk_corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / disk_corners;
+    ring.push_back(path.front() + radius * (std::cos(angle) * x + std::sin(angle) * y));
+  }
+  return swept(std::move(ring), path);
 }
 
 Faces disk_faces(const std::vector<dvec3>& path, double radius, double inner_radius) {
@@ -154,18 +164,26 @@ std::vector<dvec3> trimmed(const std::vector<dvec3>& path, double from, double t
   return part;
 }
 
-std::shared_ptr<IfcFacetedBrep> body_of(const IfcSweptDiskSolid& solid, RepresentationConverter& converter,
-                                        double unit_m, std::string& problem) {
+/// The points of a directrix; of a polyline the part between its two parameters. Empty where it has no
+/// length.
+std::vector<dvec3> path_of(const std::shared_ptr<IfcCurve>& directrix,
+                           const std::shared_ptr<IfcParameterValue>& from,
+                           const std::shared_ptr<IfcParameterValue>& to, RepresentationConverter& converter) {
   std::vector<vec3> points, starts;
-  converter.getCurveConverter()->convertIfcCurve(solid.m_Directrix, points, starts);
+  converter.getCurveConverter()->convertIfcCurve(directrix, points, starts);
   std::vector<dvec3> path;
   for (const vec3& point : points) path.emplace_back(point.x, point.y, point.z);
-  if (dynamic_cast<const IfcPolyline*>(solid.m_Directrix.get()) && solid.m_StartParam && solid.m_EndParam &&
-      path.size() >= 2)
-    path = trimmed(path, solid.m_StartParam->m_value, solid.m_EndParam->m_value);
+  if (dynamic_cast<const IfcPolyline*>(directrix.get()) && from && to && path.size() >= 2)
+    path = trimmed(path, from->m_value, to->m_value);
   path = without_repeats(path);
+  return path.size() < 2 ? std::vector<dvec3>() : path;
+}
+
+std::shared_ptr<IfcFacetedBrep> body_of(const IfcSweptDiskSolid& solid, RepresentationConverter& converter,
+                                        double unit_m, std::string& problem) {
+  const std::vector<dvec3> path = path_of(solid.m_Directrix, solid.m_StartParam, solid.m_EndParam, converter);
   const double radius = value_of(solid.m_Radius, unit_m), inner = value_of(solid.m_InnerRadius, unit_m);
-  if (path.size() < 2 || !(radius > 0.0) || inner >= radius) {
+  if (path.empty() || !(radius > 0.0) || inner >= radius) {
     problem = "its path has no length, or its radii are no tube";
     return nullptr;
   }
@@ -192,42 +210,133 @@ std::vector<std::vector<dvec2>> rings_of(std::shared_ptr<IfcProfileDef> profile,
   return rings;
 }
 
+dvec3 vector_of(const std::shared_ptr<IfcDirection>& direction) {
+  dvec3 vector(0.0);
+  for (std::size_t axis = 0;
+       direction && axis < std::min<std::size_t>(direction->m_DirectionRatios.size(), 3); ++axis)
+    if (const auto& ratio = direction->m_DirectionRatios[axis]) vector[int(axis)] = ratio->m_value;
+  return vector;
+}
+
+/// Where a swept solid puts points of its own frame.
+class Placed {
+ public:
+  Placed(const IfcSweptAreaSolid& solid, RepresentationConverter& converter) {
+    if (solid.m_Position)
+      converter.getPlacementConverter()->convertIfcAxis2Placement3D(solid.m_Position, position_);
+  }
+  dvec3 operator()(dvec3 point) const {
+    if (!position_) return point;
+    const vec3 at = position_->m_matrix * carve::geom::VECTOR(point.x, point.y, point.z);
+    return {at.x, at.y, at.z};
+  }
+  Ring operator()(const std::vector<dvec2>& ring, dvec3 offset) const {
+    Ring placed;
+    for (const dvec2& point : ring) placed.push_back((*this)(dvec3(point, 0.0) + offset));
+    return placed;
+  }
+
+ private:
+  std::shared_ptr<TransformData> position_;
+};
+
+/// The rings of one profile extruded to those of another, whose rings have as many corners.
+void add_prism(const std::vector<std::vector<dvec2>>& from, const std::vector<std::vector<dvec2>>& to,
+               dvec3 along, bool is_plane, const Placed& placed, Faces& faces) {
+  std::vector<Ring> bottom, top;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    Ring below = placed(from[i], dvec3(0.0)), above = placed(to[i], along);
+    if (along.z < 0.0) below = reversed(below), above = reversed(above);
+    add_side(below, above, is_plane, faces);
+    bottom.push_back(reversed(below)), top.push_back(above);
+  }
+  faces.push_back(std::move(bottom)), faces.push_back(std::move(top));
+}
+
+/// How far an extrusion goes, metres; zero where the file does not say.
+dvec3 extrusion_of(const IfcExtrudedAreaSolid& solid, double unit_m) {
+  const dvec3 along = vector_of(solid.m_ExtrudedDirection);
+  return along * value_of(solid.m_Depth, unit_m) / std::max(glm::length(along), 1e-12);
+}
+
 std::shared_ptr<IfcFacetedBrep> body_of(const IfcExtrudedAreaSolidTapered& solid,
                                         RepresentationConverter& converter, double unit_m,
                                         std::string& problem) {
   const auto from = rings_of(solid.m_SweptArea, converter), to = rings_of(solid.m_EndSweptArea, converter);
-  bool is_alike = from.size() == to.size() && !from.empty();
+  const dvec3 along = extrusion_of(solid, unit_m);
+  bool is_alike = from.size() == to.size() && !from.empty() && along != dvec3(0.0);
   for (std::size_t i = 0; is_alike && i < from.size(); ++i)
     is_alike = from[i].size() == to[i].size() && from[i].size() >= 3;
-  if (!is_alike || !solid.m_ExtrudedDirection || solid.m_ExtrudedDirection->m_DirectionRatios.size() < 3) {
+  if (!is_alike) {
     problem = "its two profiles are not of one kind; it is drawn without the taper";
     return nullptr;
   }
-  dvec3 along(0.0);
-  for (int axis = 0; axis < 3; ++axis)
-    if (const auto& ratio = solid.m_ExtrudedDirection->m_DirectionRatios[std::size_t(axis)])
-      along[axis] = ratio->m_value;
-  along *= value_of(solid.m_Depth, unit_m) / std::max(glm::length(along), 1e-12);
-  std::shared_ptr<TransformData> position;
-  if (solid.m_Position)
-    converter.getPlacementConverter()->convertIfcAxis2Placement3D(solid.m_Position, position);
-  const auto placed = [&](const std::vector<dvec2>& ring, dvec3 offset) {
-    Ring result;
-    for (const dvec2& point : ring) {
-      vec3 at = carve::geom::VECTOR(point.x + offset.x, point.y + offset.y, offset.z);
-      if (position) at = position->m_matrix * at;
-      result.emplace_back(at.x, at.y, at.z);
-    }
-    return result;
-  };
-  Faces faces(2);
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    Ring below = placed(from[i], dvec3(0.0)), above = placed(to[i], along);
-    if (along.z < 0.0) below = reversed(below), above = reversed(above);
-    add_side(below, above, false, faces);
-    faces[0].push_back(reversed(below)), faces[1].push_back(above);
-  }
+  Faces faces;
+  add_prism(from, to, along, false, Placed(solid, converter), faces);
   return brep_of(faces, unit_m);
+}
+
+/// A body for each profile of several: IFC++ takes all but the first for holes.
+std::shared_ptr<IfcFacetedBrep> body_of_several(const IfcExtrudedAreaSolid& solid,
+                                                RepresentationConverter& converter, double unit_m) {
+  const auto* several = dynamic_cast<const IfcCompositeProfileDef*>(solid.m_SweptArea.get());
+  const dvec3 along = extrusion_of(solid, unit_m);
+  if (!several || along == dvec3(0.0)) return nullptr;
+  const Placed placed(solid, converter);
+  Faces faces;
+  for (const auto& profile : several->m_Profiles)
+    if (const auto rings = rings_of(profile, converter); !rings.empty())
+      add_prism(rings, rings, along, true, placed, faces);
+  return faces.empty() ? nullptr : brep_of(faces, unit_m);
+}
+
+/// A profile swept along a curve, its x axis towards `reference`, in the solid's frame.
+std::shared_ptr<IfcFacetedBrep> body_along(const IfcSweptAreaSolid& solid, const std::vector<dvec3>& path,
+                                           dvec3 reference, RepresentationConverter& converter, double unit_m,
+                                           std::string& problem) {
+  const auto rings = rings_of(solid.m_SweptArea, converter);
+  const dvec3 first = path.empty() ? dvec3(0.0) : glm::normalize(path[1] - path[0]);
+  const dvec3 across = reference - glm::dot(reference, first) * first;
+  if (rings.empty() || path.empty() || glm::length(across) < 1e-6 * glm::length(reference)) {
+    problem = "its path has no length, or runs along its reference";
+    return nullptr;
+  }
+  const dvec3 x = glm::normalize(across), y = glm::cross(first, x);
+  const Placed placed(solid, converter);
+  Faces faces;
+  std::vector<Ring> bottom, top;
+  for (const std::vector<dvec2>& ring : rings) {
+    Ring section;
+    for (const dvec2& point : ring) section.push_back(path.front() + point.x * x + point.y * y);
+    std::vector<Ring> along = swept(std::move(section), path);
+    for (Ring& each : along)
+      for (dvec3& corner : each) corner = placed(corner);
+    for (std::size_t i = 0; i + 1 < along.size(); ++i) add_side(along[i], along[i + 1], true, faces);
+    bottom.push_back(reversed(along.front())), top.push_back(along.back());
+  }
+  faces.push_back(std::move(bottom)), faces.push_back(std::move(top));
+  return brep_of(faces, unit_m);
+}
+
+std::shared_ptr<IfcFacetedBrep> body_of(const IfcFixedReferenceSweptAreaSolid& solid,
+                                        RepresentationConverter& converter, double unit_m,
+                                        std::string& problem) {
+  const auto path = path_of(solid.m_Directrix, solid.m_StartParam, solid.m_EndParam, converter);
+  return body_along(solid, path, vector_of(solid.m_FixedReference), converter, unit_m, problem);
+}
+
+/// The profile's x axis is the normal of the plane that it is swept along.
+std::shared_ptr<IfcFacetedBrep> body_of(const IfcSurfaceCurveSweptAreaSolid& solid,
+                                        RepresentationConverter& converter, double unit_m,
+                                        std::string& problem) {
+  const auto* plane = dynamic_cast<const IfcPlane*>(solid.m_ReferenceSurface.get());
+  if (!plane) {
+    problem = "it is swept along a surface that is no plane";
+    return nullptr;
+  }
+  const dvec3 given = plane->m_Position ? vector_of(plane->m_Position->m_Axis) : dvec3(0.0);
+  const auto path = path_of(solid.m_Directrix, solid.m_StartParam, solid.m_EndParam, converter);
+  return body_along(solid, path, given == dvec3(0.0) ? dvec3(0, 0, 1) : given, converter, unit_m, problem);
 }
 
 /// Puts other bodies in the place of some wherever a body can stand.
@@ -251,6 +360,12 @@ void replace_sweeps(BuildingModel& building, RepresentationConverter& converter,
         body = body_of(*disk, converter, unit_m, problem);
       else if (const auto* tapered = dynamic_cast<const IfcExtrudedAreaSolidTapered*>(entity.get()))
         body = body_of(*tapered, converter, unit_m, problem);
+      else if (const auto* extruded = dynamic_cast<const IfcExtrudedAreaSolid*>(entity.get()))
+        body = body_of_several(*extruded, converter, unit_m);
+      else if (const auto* fixed = dynamic_cast<const IfcFixedReferenceSweptAreaSolid*>(entity.get()))
+        body = body_of(*fixed, converter, unit_m, problem);
+      else if (const auto* on_surface = dynamic_cast<const IfcSurfaceCurveSweptAreaSolid*>(entity.get()))
+        body = body_of(*on_surface, converter, unit_m, problem);
       else if (dynamic_cast<const IfcRevolvedAreaSolidTapered*>(entity.get()))
         problem = "its end has another profile, which is left out";
     } catch (const std::exception& failure) {  // of IFC++: a curve that it cannot follow

@@ -31,6 +31,7 @@
 #include <set>
 
 #include "formats/ifc/ifc_4x3.h"
+#include "formats/ifc/ifc_arcs.h"
 #include "formats/ifc/ifc_curves.h"
 #include "formats/ifc/ifc_styles.h"
 #include "formats/ifc/ifc_sweeps.h"
@@ -42,6 +43,10 @@ namespace {
 constexpr std::size_t max_warnings = 20;
 constexpr int max_storey_depth = 64;  // aggregates within aggregates: a file may have cycles
 constexpr double cellar_m = -0.5;  // elevation of a storey: lower ones are no ground floors with a step down
+
+/// Corners of a circle: chords of 0.05 m lie within 1 mm of it, and of 0.4 m, too.
+constexpr int corners_of_large_circle = 48, corners_of_small_circle = 16;
+constexpr double small_circle_m = 0.05;
 
 /// IFC++ writes to the program's output, which belongs to the user.
 class SilentOutput {
@@ -399,6 +404,12 @@ Result<IfcBodies> bodies_of(std::string text, const std::string& name, Errors& w
         });
     const std::string read = text;  // IFC++ takes the text apart
     ReaderSTEP().loadModelFromString(text, building);
+    GeometrySettings& settings = *converter.getGeomSettings();
+    settings.setNumVerticesPerCircle(corners_of_large_circle);
+    settings.setNumVerticesPerCircleGivenRadius([](double radius) {
+      return radius < small_circle_m ? corners_of_small_circle : corners_of_large_circle;
+    });
+    replace_arcs(*building, *converter.getRepresentationConverter());
     replace_sweeps(*building, *converter.getRepresentationConverter(),
                    [&](int id, const std::string& problem) {
                      complaints.add(*building->getMapIfcEntities().at(id), problem);

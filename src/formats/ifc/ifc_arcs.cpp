@@ -1,0 +1,145 @@
+#include "formats/ifc/ifc_arcs.h"
+
+#include <ifcpp/IFC4/include/IfcAxis2Placement2D.h>
+#include <ifcpp/IFC4/include/IfcAxis2Placement3D.h>
+#include <ifcpp/IFC4/include/IfcBoolean.h>
+#include <ifcpp/IFC4/include/IfcCartesianPoint.h>
+#include <ifcpp/IFC4/include/IfcCircle.h>
+#include <ifcpp/IFC4/include/IfcCompositeCurveSegment.h>
+#include <ifcpp/IFC4/include/IfcEllipse.h>
+#include <ifcpp/IFC4/include/IfcLengthMeasure.h>
+#include <ifcpp/IFC4/include/IfcParameterValue.h>
+#include <ifcpp/IFC4/include/IfcPolyline.h>
+#include <ifcpp/IFC4/include/IfcPositiveLengthMeasure.h>
+#include <ifcpp/IFC4/include/IfcTrimmedCurve.h>
+#include <ifcpp/geometry/Carve/GeometryConverter.h>
+#include <ifcpp/model/BuildingModel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <numbers>
+#include <optional>
+
+namespace parvis::scene {
+namespace {
+
+constexpr double whole_turn = 2.0 * std::numbers::pi, step_of_arc = std::numbers::pi / 24.0;
+
+using Trims = std::vector<std::shared_ptr<IfcTrimmingSelect>>;
+
+/// A circle or an ellipse in its own plane.
+struct Conic {
+  carve::math::Matrix world_from_conic = carve::math::Matrix::IDENT();
+  glm::dvec2 radii{0.0};  // metres
+};
+
+std::optional<Conic> conic_of(IfcCurve* curve, RepresentationConverter& converter, double unit_m) {
+  Conic conic;
+  if (const auto* circle = dynamic_cast<const IfcCircle*>(curve); circle && circle->m_Radius)
+    conic.radii = glm::dvec2(circle->m_Radius->m_value * unit_m);
+  else if (const auto* ellipse = dynamic_cast<const IfcEllipse*>(curve);
+           ellipse && ellipse->m_SemiAxis1 && ellipse->m_SemiAxis2)
+    conic.radii = unit_m * glm::dvec2(ellipse->m_SemiAxis1->m_value, ellipse->m_SemiAxis2->m_value);
+  if (!(conic.radii.x > 0.0) || !(conic.radii.y > 0.0)) return std::nullopt;
+  const std::shared_ptr<IfcAxis2Placement>& given = static_cast<const IfcConic*>(curve)->m_Position;
+  std::shared_ptr<TransformData> placement;
+  if (const auto plan = std::dynamic_pointer_cast<IfcAxis2Placement2D>(given))
+    converter.getPlacementConverter()->convertIfcAxis2Placement2D(plan, placement);
+  else if (const auto space = std::dynamic_pointer_cast<IfcAxis2Placement3D>(given))
+    converter.getPlacementConverter()->convertIfcAxis2Placement3D(space, placement);
+  if (placement) conic.world_from_conic = placement->m_matrix;
+  return conic;
+}
+
+/// Where a trim lies on a conic, radians: by its point, which says the same in any unit, else by its
+/// parameter.
+std::optional<double> angle_of(const Trims& trims, const Conic& conic, double unit_m, double unit_rad) {
+  std::optional<double> angle;
+  for (const auto& trim : trims) {
+    if (const auto* point = dynamic_cast<const IfcCartesianPoint*>(trim.get());
+        point && point->m_Coordinates.size() >= 2) {
+      glm::dvec3 from(0.0);  // the conic's middle
+      for (std::size_t axis = 0; axis < std::min<std::size_t>(point->m_Coordinates.size(), 3); ++axis)
+        if (point->m_Coordinates[axis]) from[int(axis)] = point->m_Coordinates[axis]->m_value * unit_m;
+      const carve::math::Matrix& m = conic.world_from_conic;
+      from -= glm::dvec3(m.m[3][0], m.m[3][1], m.m[3][2]);
+      const double x = glm::dot(from, glm::dvec3(m.m[0][0], m.m[0][1], m.m[0][2])),
+                   y = glm::dot(from, glm::dvec3(m.m[1][0], m.m[1][1], m.m[1][2]));
+      return std::atan2(y / conic.radii.y, x / conic.radii.x);
+    }
+    if (const auto* parameter = dynamic_cast<const IfcParameterValue*>(trim.get()))
+      angle = parameter->m_value * unit_rad;
+  }
+  return angle;
+}
+
+std::shared_ptr<IfcPolyline> polyline(const std::vector<vec3>& points, double unit_m) {
+  auto line = std::make_shared<IfcPolyline>();
+  for (const vec3& at : points) {
+    auto point = std::make_shared<IfcCartesianPoint>();
+    for (const double value : {at.x, at.y, at.z})
+      point->m_Coordinates.push_back(std::make_shared<IfcLengthMeasure>(value / unit_m));
+    line->m_Points.push_back(std::move(point));
+  }
+  return line;
+}
+
+/// The points of a trimmed conic, in the direction in which the curve runs; empty where it is none.
+std::vector<vec3> arc_of(const IfcTrimmedCurve& curve, RepresentationConverter& converter, double unit_m,
+                         double unit_rad) {
+  const std::optional<Conic> conic = conic_of(curve.m_BasisCurve.get(), converter, unit_m);
+  if (!conic) return {};
+  const auto from = angle_of(curve.m_Trim1, *conic, unit_m, unit_rad),
+             to = angle_of(curve.m_Trim2, *conic, unit_m, unit_rad);
+  if (!from || !to || !std::isfinite(*from) || !std::isfinite(*to)) return {};
+  const double sense = !curve.m_SenseAgreement || curve.m_SenseAgreement->m_value ? 1.0 : -1.0;
+  double opening = std::fmod(sense * (*to - *from), whole_turn);
+  if (opening <= 1e-9) opening += whole_turn;
+  const int steps = std::max(2, int(std::ceil(opening / step_of_arc)));
+  std::vector<vec3> points;
+  for (int i = 0; i <= steps; ++i) {
+    const double angle = *from + sense * opening * i / steps;
+    points.push_back(conic->world_from_conic * carve::geom::VECTOR(conic->radii.x * std::cos(angle),
+                                                                   conic->radii.y * std::sin(angle), 0.0));
+  }
+  return points;
+}
+
+}  // namespace
+
+void replace_arcs(BuildingModel& building, RepresentationConverter& converter) {
+  UnitConverter& units = *building.getUnitConverter();
+  const double unit_m = units.getLengthInMeterFactor();
+  const double unit_rad =
+      units.getAngularUnit() == UnitConverter::UNDEFINED ? 1.0 : units.getAngleInRadiantFactor();
+  for (const auto& [id, entity] : building.getMapIfcEntities()) {
+    auto* trimmed = dynamic_cast<IfcTrimmedCurve*>(entity.get());
+    if (!trimmed) continue;
+    std::vector<vec3> points;
+    try {
+      points = arc_of(*trimmed, converter, unit_m, unit_rad);
+    } catch (const std::exception&) {  // of IFC++: a placement that it cannot follow
+    }
+    if (points.empty()) continue;
+    trimmed->m_BasisCurve = polyline(points, unit_m);
+    trimmed->m_Trim1.clear(), trimmed->m_Trim2.clear();
+    trimmed->m_SenseAgreement = std::make_shared<IfcBoolean>(true);
+  }
+  for (const auto& [id, entity] : building.getMapIfcEntities()) {
+    auto* segment = dynamic_cast<IfcCompositeCurveSegment*>(entity.get());
+    if (!segment || !segment->m_ParentCurve || !segment->m_SameSense || segment->m_SameSense->m_value)
+      continue;
+    std::vector<vec3> points, starts;
+    try {
+      converter.getCurveConverter()->convertIfcCurve(segment->m_ParentCurve, points, starts);
+    } catch (const std::exception&) {  // a curve that IFC++ cannot follow, which its own pass names
+      continue;
+    }
+    std::ranges::reverse(points);
+    segment->m_ParentCurve = polyline(points, unit_m);
+    segment->m_SameSense = std::make_shared<IfcBoolean>(true);
+  }
+}
+
+}  // namespace parvis::scene
