@@ -199,6 +199,7 @@ class PartReader {
       if (!part.deformation) far = formats::local_origin(glm::dvec3(bounds.min), glm::dvec3(bounds.max));
       for (glm::vec3& position : part.mesh.positions) position = glm::vec3(glm::dvec3(position) - far);
       inner.translation = inner.scale * far;
+      formats::note_single_precision(far, "the file has", account_);
       part.node = mirrors || far != glm::dvec3(0.0) ? append(inner) : host;
     }
     model_.parts.push_back(std::move(part));

@@ -12,8 +12,11 @@
 #include <Inventor/errors/SoDebugError.h>
 #include <Inventor/errors/SoReadError.h>
 #include <Inventor/fields/SoSFBool.h>
+#include <Inventor/fields/SoSFNode.h>
+#include <Inventor/nodes/SoMaterialBinding.h>
 #include <Inventor/nodes/SoSeparator.h>
 #include <Inventor/nodes/SoShape.h>
+#include <Inventor/nodes/SoVertexProperty.h>
 
 #include <algorithm>
 #include <array>
@@ -22,6 +25,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/colour.h"
 #include "base/files.h"
 #include "base/image_io.h"
 #include "formats/inventor/inventor_reader.h"
@@ -102,6 +106,7 @@ class Assembly {
 
  private:
   using Look = std::tuple<float, float, float, float, float, float, float, int, bool>;
+  static constexpr float of_corners = -1.0f;  ///< in place of a look's colour
 
   static SoCallbackAction::Response begin_shape(void* self, SoCallbackAction* walk, const SoNode* shape) {
     static_cast<Assembly*>(self)->begin(*walk, *shape);
@@ -153,6 +158,7 @@ class Assembly {
     // Shapes whose corners have no order, or that are not solid, are seen from both sides.
     is_double_sided_ = !flag(shape, "solid", walk.getShapeType() == SoShapeHints::SOLID);
     is_clockwise_ = !flag(shape, "ccw", walk.getVertexOrdering() != SoShapeHints::CLOCKWISE);
+    has_colours_of_corners_ = has_colours_of_corners(walk, shape);
     part_ = -1;
     last_look_ = {};
   }
@@ -206,13 +212,15 @@ class Assembly {
     return image;
   }
 
-  /// The part for the colour of a corner.
-  int part_of(SoCallbackAction& walk, int material_index) {
+  Look look_of(const SoCallbackAction& walk, int material_index) const {
     SbColor ambient, diffuse, specular, emission;
     float shininess = 0.0f, transparency = 0.0f;
     walk.getMaterial(ambient, diffuse, specular, emission, shininess, transparency, material_index);
-    const Look look{diffuse[0],  diffuse[1],   diffuse[2], emission[0],     emission[1],
-                    emission[2], transparency, texture_,   is_double_sided_};
+    return {diffuse[0],  diffuse[1],   diffuse[2], emission[0],     emission[1],
+            emission[2], transparency, texture_,   is_double_sided_};
+  }
+
+  int part_of(const Look& look) {
     if (part_ >= 0 && look == last_look_) return part_;
     last_look_ = look;
     const auto [material, is_new_look] = materials_.try_emplace(look, int(model_.materials.size()));
@@ -222,11 +230,39 @@ class Assembly {
     return part_ = part->second;
   }
 
+  /// Whether a shape gives colours to its corners, which are those of a display, as in other formats.
+  static bool has_colours_of_corners(const SoCallbackAction& walk, const SoNode& shape) {
+    const auto node_in = [&](const char* name) {
+      const SoField* field = shape.getField(name);
+      return field ? static_cast<const SoSFNode*>(field)->getValue() : nullptr;
+    };
+    if (shape.getField("colorPerVertex")) return flag(shape, "colorPerVertex", false) && node_in("color");
+    SoMaterialBinding::Binding binding = walk.getMaterialBinding();
+    if (const auto* own = dynamic_cast<const SoVertexProperty*>(node_in("vertexProperty"));
+        own && own->orderedRGBA.getNum() > 0)
+      binding = SoMaterialBinding::Binding(own->materialBinding.getValue());
+    return binding == SoMaterialBinding::PER_VERTEX || binding == SoMaterialBinding::PER_VERTEX_INDEXED;
+  }
+
+  /// The mesh for a triangle. A texture replaces colours.
+  Mesh& mesh_for(const SoCallbackAction& walk, const std::array<const SoPrimitiveVertex*, 3>& corners) {
+    Look look = look_of(walk, corners[0]->getMaterialIndex());
+    const bool is_plain = !has_colours_of_corners_ || texture_ != scene::no_index;
+    if (!is_plain) std::get<0>(look) = std::get<1>(look) = std::get<2>(look) = of_corners;
+    Mesh& mesh = model_.parts[std::size_t(part_of(look))].mesh;
+    for (std::size_t k = 0; !is_plain && k < 3; ++k) {
+      const Look own = look_of(walk, corners[k]->getMaterialIndex());
+      mesh.colours.emplace_back(
+          linear_from_srgb(glm::vec3(std::get<0>(own), std::get<1>(own), std::get<2>(own))), 1.0f);
+    }
+    return mesh;
+  }
+
   scene::Material material_of(const Look& look, const std::string& name) const {
     const auto& [r, g, b, er, eg, eb, transparency, texture, is_double_sided] = look;
     scene::Material material;
     material.name = name;
-    material.base_colour = {r, g, b};
+    material.base_colour = r == of_corners ? glm::vec3(1.0f) : glm::vec3(r, g, b);
     material.emission = {er, eg, eb};
     material.alpha = std::clamp(1.0f - transparency, 0.0f, 1.0f);
     if (material.alpha < 1.0f) material.alpha_mode = scene::Alpha::blend;
@@ -241,10 +277,10 @@ class Assembly {
   }
 
   void add(SoCallbackAction& walk, std::array<const SoPrimitiveVertex*, 3> corners) {
-    Mesh& mesh = model_.parts[std::size_t(part_of(walk, corners[0]->getMaterialIndex()))].mesh;
     const SbMatrix& placed = walk.getModelMatrix();
     // A mirrored triangle turns its back.
     if (is_clockwise_ != (placed.det3() < 0.0f)) std::swap(corners[1], corners[2]);
+    Mesh& mesh = mesh_for(walk, corners);
     const SbMatrix normals = placed.inverse().transpose();
     for (const SoPrimitiveVertex* corner : corners) {
       SbVec3f point, normal;
@@ -272,7 +308,7 @@ class Assembly {
   std::map<std::pair<std::string, int>, int> parts_;
   std::string name_;  ///< of the shape that is being read
   int texture_ = scene::no_index, part_ = -1;
-  bool is_double_sided_ = true, is_clockwise_ = false;
+  bool is_double_sided_ = true, is_clockwise_ = false, has_colours_of_corners_ = false;
   Look last_look_;
 };
 

@@ -43,6 +43,20 @@ class Inventor : public testing::Test {
   Errors warnings_;
 };
 
+TEST_F(Inventor, ColoursOfCornersAreThoseOfTheCorners) {
+  const Model model =
+      read("corners.wrl",
+           "#VRML V2.0 utf8\nDEF board Shape { geometry IndexedFaceSet { coord Coordinate { point "
+           "[ 0 0 0, 1 0 0, 1 1 0, 0 1 0 ] } color Color { color [ 1 0 0, 0 0 1 ] } "
+           "colorIndex [ 0 1 1 0 -1 ] coordIndex [ 0 1 2 3 -1 ] } }\n");
+  ASSERT_EQ(model.parts.size(), 1u);
+  const Mesh& mesh = model.parts[0].mesh;
+  ASSERT_EQ(mesh.colours.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_EQ(mesh.colours[i], mesh.positions[i].x < 0.5f ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 0, 1, 1));
+  EXPECT_EQ(model.materials[std::size_t(model.parts[0].material)].base_colour, glm::vec3(1.0f));
+}
+
 TEST_F(Inventor, ReadsShapesColoursPicturesAndPlaces) {
   ASSERT_TRUE(write_image(folder_.path() / "paint.png", Image8(4, 4, 4, 200)));
   const Model model = read("squares.wrl", squares_vrml);

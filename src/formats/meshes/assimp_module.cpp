@@ -155,14 +155,8 @@ class Converter {
       return Status(Ok{});
     });
     model_.origin = formats::local_origin(low, high);
-    if (model_.origin == glm::dvec3(0.0) || is_exact_in_single_precision()) return;
-    const double last_digit_m = glm::length(model_.origin) * double(std::numeric_limits<float>::epsilon());
-    account_.left_out(
-        "digits of coordinates",
-        fmt::format("the format's reader has single precision, {:.2g} m here; export the model about a "
-                    "local origin",
-                    last_digit_m),
-        "", 1);
+    formats::note_single_precision(
+        model_.origin, is_exact_in_single_precision() ? "the file has" : "the format's reader has", account_);
   }
 
   /// Whether the format's coordinates are written in single precision themselves.
@@ -204,17 +198,27 @@ class Converter {
     });
   }
 
+  /// Whether numbers up to 255 were written where 1 is the brightest: OFF, and OBJ of some programs.
+  static bool has_colours_in_bytes(const aiMesh& source) {
+    if (!source.HasVertexColors(0)) return false;
+    return std::any_of(source.mColors[0], source.mColors[0] + source.mNumVertices, [](const aiColor4D& c) {
+      return std::max({c.r, c.g, c.b}) > 1.0f;
+    });
+  }
+
   /// Whole meshes stand in the model's frame: positions are placed in double precision, and rounded about the
   /// origin.
   Status add_mesh(const aiMesh& source, const aiNode& node, const glm::dmat4& model_from_node) {
     Mesh mesh;
+    const float unit = has_colours_in_bytes(source) ? 1.0f / 255.0f : 1.0f;
     for (unsigned i = 0; i < source.mNumVertices; ++i) {
       const aiVector3D& p = source.mVertices[i];
       mesh.positions.emplace_back(glm::dvec3(model_from_node * glm::dvec4(p.x, p.y, p.z, 1.0)) -
                                   model_.origin);
       if (source.HasVertexColors(0)) {
         const aiColor4D& c = source.mColors[0][i];
-        mesh.colours.emplace_back(linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b), c.a);
+        mesh.colours.emplace_back(linear_from_srgb(unit * glm::vec3(c.r, c.g, c.b)),
+                                  c.a > 1.0f ? unit * c.a : c.a);
       }
       mesh.normals.push_back(source.HasNormals()
                                  ? glm::vec3(source.mNormals[i].x, source.mNormals[i].y, source.mNormals[i].z)

@@ -88,6 +88,19 @@ TEST(Assimp, CoordinatesOfANationalGridKeepTheirMillimetres) {
   EXPECT_NEAR(roof->origin.y + double(bounds(*roof).max.y), 5431987.630, 1e-4);
 }
 
+TEST(Assimp, ColoursOfVerticesInBytesAreColours) {
+  const TestFolder folder;
+  Errors warnings;
+  const Result<Model> off = read_with_assimp(
+      folder.write("bytes.off",
+                   "COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 0 0 255 255\n0 1 0 255 0 0 255\n3 0 1 2\n"),
+      formats::UpAxis::file, warnings);
+  ASSERT_TRUE(off);
+  ASSERT_EQ(off->parts.front().mesh.colours.size(), 3u);
+  for (const glm::vec4 colour : off->parts.front().mesh.colours)
+    EXPECT_LT(glm::distance(colour, colour.x > 0.5f ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 0, 1, 1)), 1e-5f);
+}
+
 TEST(Assimp, PlyAndStlAreBroughtNearInDoublePrecision) {
   const TestFolder folder;
   Errors warnings;

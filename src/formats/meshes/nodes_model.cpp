@@ -1,5 +1,6 @@
 // model: a model file, placed.
 #include <algorithm>
+#include <cstdio>
 
 #include "base/known_names.h"
 #include "base/progress.h"
@@ -106,28 +107,49 @@ GroundOnMap ground_below(const Node& node, SceneBuilder& builder, std::string& m
   };
 }
 
+/// The position as the script writes it: coordinates of a national grid have more digits than floats.
+glm::dvec3 exact_position(const Node& node) {
+  const glm::vec3 rounded = node.vec3("position");
+  const auto given = std::ranges::find(node.attributes, "position",
+                                       [](const NodeAttribute& each) { return each.schema->name; });
+  glm::dvec3 exact(0.0);
+  const bool is_written =
+      given != node.attributes.end() &&
+      std::sscanf(given->text.c_str(), " %lf%*[, ]%lf%*[, ]%lf", &exact.x, &exact.y, &exact.z) == 3 &&
+      glm::vec3(exact) == rounded;
+  return is_written ? exact : glm::dvec3(rounded);
+}
+
+/// placement(node), and a move before it, in double precision.
+glm::mat4 placed_with(const Node& node, glm::dvec3 offset) {
+  glm::mat4 placed = placement(node);
+  placed[3] = glm::vec4(glm::vec3(exact_position(node) + glm::dmat3(glm::mat3(placed)) * offset), 1.0f);
+  return placed;
+}
+
 /// Georeferenced models stand as their coordinates say: the first one's origin is the scene's, and the others
 /// stand about it, so that tiles of one city meet. Its map is the scene's: files that know where they are on
 /// the earth are laid on it.
-glm::vec3 offset_in_scene(const Model& model, const Node& node, SceneBuilder& builder) {
+glm::dvec3 offset_in_scene(const Model& model, const Node& node, SceneBuilder& builder) {
   constexpr double far_m = 50'000.0;  // floats end at millimetres there, and no city is so large
-  if (model.origin == glm::dvec3(0.0)) return glm::vec3(0.0f);
-  // A script may take the coordinates of a national grid off itself.
-  const glm::dvec3 position(node.vec3("position"));
+  if (model.origin == glm::dvec3(0.0)) return model.origin;
+  // A script may take the coordinates of a national grid off itself, by the node or by a group about it.
+  const glm::dmat4 placed(builder.world_from_parent() * placement(node));
+  const glm::dvec3 position(placed[3]);
   if (glm::length(glm::dvec2(position)) > formats::max_local_m &&
-      glm::length(position + model.origin) < far_m)
-    return glm::vec3(model.origin);
+      glm::length(position + glm::dmat3(placed) * model.origin) < far_m)
+    return model.origin;
   Scene& scene = builder.scene;
   if (scene.origin == glm::dvec3(0.0)) scene.origin = model.origin;
   if (scene.map.empty() && !model.map.empty())
     scene.map = model.map, scene.true_north_deg = model.true_north_deg;
   const glm::dvec3 offset = model.origin - builder.scene.origin;
-  if (glm::length(offset) < far_m) return glm::vec3(offset);
+  if (glm::length(offset) < far_m) return offset;
   builder.warn(error_at(node.where_of("file"),
                         "\"{}\" lies {:.0f} km from the scene's first georeferenced model; their coordinate "
                         "systems may differ. It is put beside it instead",
                         model.name, glm::length(offset) / 1000.0));
-  return glm::vec3(0.0f);
+  return glm::dvec3(0.0);
 }
 
 std::shared_ptr<const Model> read_model_file(const Node& node, SceneBuilder& builder,
@@ -195,8 +217,7 @@ void build_model(const Node& node, SceneBuilder& builder, const formats::Readers
   object.takes_reflection = node.flag("reflective");
   object.is_visible = builder.is_visible() && node.flag("visible");
   const std::string name = node.gives("name") ? node.text("name") : formats::model_stem(node.file("file"));
-  glm::mat4 placed_from_model(1.0f);
-  placed_from_model[3] = glm::vec4(offset_in_scene(*object.model, node, builder), 1.0f);
+  const glm::mat4 placed_from_model = placed_with(node, offset_in_scene(*object.model, node, builder));
   const PlayedAnimation played = animation_of(*object.model, node, builder);
   std::vector<glm::vec3> positions = node.points("positions");
   if (positions.empty()) positions.emplace_back(0.0f);
@@ -205,7 +226,7 @@ void build_model(const Node& node, SceneBuilder& builder, const formats::Readers
     object.name = i == 0 ? name : fmt::format("{} {}", name, i + 1);
     glm::mat4 moved(1.0f);
     moved[3] = glm::vec4(positions[i], 1.0f);
-    object.world_from_model = builder.world_from_parent() * moved * placement(node) * placed_from_model;
+    object.world_from_model = builder.world_from_parent() * moved * placed_from_model;
     Object copy = object;
     if (played.animation != no_index) play(copy, of_copy(played, *object.model, i));
     builder.add(std::move(copy));

@@ -67,6 +67,18 @@ TEST_F(ModelNodes, TilesOfOneCityMeet) {
   EXPECT_EQ(glm::vec3(scene.objects[1].world_from_model[3]), glm::vec3(10.0f, 0.0f, 0.0f));
 }
 
+TEST_F(ModelNodes, AScriptTakesTheGridOffWithItsDecimals) {
+  folder_.write("west.city.json", tile(80000));
+  for (const char* script : {"model(file=\"west.city.json\", position=\"-79999.37 -450004.63 0\")",
+                             "group(position=\"-80000 -450004 0\") { model(file=\"west.city.json\") }"}) {
+    const Scene scene = scene_of(script);
+    ASSERT_EQ(scene.objects.size(), 1u);
+    const glm::vec2 middle(scene.objects[0].world_from_model[3]);
+    EXPECT_LT(glm::distance(middle, script[0] == 'm' ? glm::vec2(0.63f, 0.37f) : glm::vec2(0.0f, 1.0f)),
+              1e-4f);
+  }
+}
+
 TEST_F(ModelNodes, ACityElsewhereIsPutBesideTheFirstAndReported) {
   folder_.write("west.city.json", tile(80000));
   folder_.write("far.city.json", tile(2680000));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace parvis::formats {
 namespace {
@@ -28,6 +29,14 @@ void note_origin(glm::dvec3 origin, const std::string& map, scene::FileAccount& 
                                                       : " of the file's own coordinate system";
   account.changed("coordinates", fmt::format("given about the local origin {:.0f} {:.0f} {:.0f}{}", origin.x,
                                              origin.y, origin.z, system));
+}
+
+void note_single_precision(glm::dvec3 origin, const std::string& whose, scene::FileAccount& account) {
+  if (origin == glm::dvec3(0.0)) return;
+  const double last_digit_m = glm::length(origin) * double(std::numeric_limits<float>::epsilon());
+  account.left_out("digits of coordinates",
+                   fmt::format("{} single precision, {:.2g} m here; export the model about a local origin",
+                               whose, last_digit_m));
 }
 
 }  // namespace parvis::formats

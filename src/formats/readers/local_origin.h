@@ -20,4 +20,8 @@ glm::dvec3 local_origin(glm::dvec3 low, glm::dvec3 high);
 /// empty: the file names none).
 void note_origin(glm::dvec3 origin, const std::string& map, scene::FileAccount& account);
 
+/// Notes that coordinates around an origin other than zero were in single precision when they were read:
+/// `whose` says by whom, "the file has" or "the format's reader has".
+void note_single_precision(glm::dvec3 origin, const std::string& whose, scene::FileAccount& account);
+
 }  // namespace parvis::formats
