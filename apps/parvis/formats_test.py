@@ -63,8 +63,8 @@ def ply(properties="", values="", elements="", rest=""):
             + "".join("4 %d %d %d %d\n" % side for side in SIDES) + rest)
 
 
-def stl(attribute):
-    facets = b"".join(struct.pack("<12fH", 0, 0, 0, *(value for i in half for value in CORNERS[i]), attribute) for half in HALVES)
+def stl(attribute, at=(0, 0, 0)):
+    facets = b"".join(struct.pack("<12fH", 0, 0, 0, *(at[k] + CORNERS[i][k] for i in half for k in range(3)), attribute) for half in HALVES)
     return b"COLOR=\xc8\xc8\xc8\xff".ljust(80) + struct.pack("<I", len(HALVES)) + facets
 
 
@@ -91,6 +91,27 @@ def ifc(*lines, schema="IFC4", context="$", product="IFCWALL", item=None, unit="
             "END-ISO-10303-21;\n" % (schema, "\n".join(instances)))
 
 
+def extruded(*profile):
+    """A body of 2.5 m of the profile #35."""
+    return [*profile, "#36=IFCEXTRUDEDAREASOLID(#35,#4,#2,2.5);"]
+
+
+def points_2d(number, *places):
+    """A closed polyline, with its points behind it."""
+    refs = ",".join(f"#{number + 1 + i}" for i in range(len(places)))
+    return [f"#{number}=IFCPOLYLINE(({refs},#{number + 1}));"] + [f"#{number + 1 + i}=IFCCARTESIANPOINT(({x:.3f},{y:.3f}));" for i, (x, y) in enumerate(places)]
+
+
+# Half a disc of 1 m by points at the height of its middle, in axes that are turned by a right angle, and its straight side, which runs backwards.
+HALF_DISC = extruded(
+    "#37=IFCAXIS2PLACEMENT2D(#38,#44);", "#38=IFCCARTESIANPOINT((5.,3.));", "#44=IFCDIRECTION((0.,1.));", "#39=IFCCIRCLE(#37,1.);",
+    "#40=IFCTRIMMEDCURVE(#39,(#45),(#46),.T.,.CARTESIAN.);", "#45=IFCCARTESIANPOINT((6.,3.));", "#46=IFCCARTESIANPOINT((4.,3.));", "#41=IFCPOLYLINE((#45,#46));",
+    "#42=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#40);", "#43=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.F.,#41);", "#30=IFCCOMPOSITECURVE((#42,#43),.F.);",
+    "#35=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#30);")
+TWO_PROFILES = extruded(*points_2d(130, (0, 0), (4, 0), (4, 0.3), (0, 0.3)), *points_2d(140, (0, 1), (4, 1), (4, 1.3), (0, 1.3)),
+                        "#37=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#130);", "#38=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#140);", "#35=IFCCOMPOSITEPROFILEDEF(.AREA.,$,(#37,#38),$);")
+SWEPT = ["#130=IFCPOLYLINE((#131,#132,#133));", "#131=IFCCARTESIANPOINT((0.,0.,0.));", "#132=IFCCARTESIANPOINT((3.,0.,0.));", "#133=IFCCARTESIANPOINT((3.,2.,0.));",
+         "#37=IFCAXIS2PLACEMENT2D(#38,$);", "#38=IFCCARTESIANPOINT((0.,0.));", "#35=IFCRECTANGLEPROFILEDEF(.AREA.,$,#37,0.4,0.2);"]
 ON_MAP = ("#50=IFCPROJECTEDCRS('EPSG:25832',$,$,$,$,$,$);", "#51=IFCMAPCONVERSION(#5,#50,500000.,5700000.,12.,1.,0.,0.9996);")
 RIGID = ("#50=IFCPROJECTEDCRS('EPSG:25832',$,$,$,$,$,$);", "#51=IFCRIGIDOPERATION(#5,#50,IFCLENGTHMEASURE(500000.),IFCLENGTHMEASURE(5700000.),12.);")
 BY_PROPERTIES = (
@@ -184,6 +205,7 @@ NAMED = [
     (MESHES, "of facets where Magics writes them", "facets.stl", stl(0x001F), "left out", "colours of facets"),
     (MESHES, "material libraries that are not there", "library.obj", "mtllib gone.mtl\n" + obj(), "left out", "material libraries"),
     (MESHES, "an OBJ whose y is a northing is taken as z up", "grid.obj", obj(corners=[(x + 84500, y + 447300, z) for x, y, z in CORNERS]), "changed", "axes"),
+    (MESHES, "in single precision", "grid.stl", stl(0, (458321.37, 5431987.63, 0)), "left out", "digits of coordinates"),
     ("Open Inventor 2, VRML 1 and 2", "lines, points", "line.wrl", vrml("Shape { geometry Box {} }", "Shape { geometry IndexedLineSet { coord Coordinate { point [ 0 0 0, 1 0 0 ] } coordIndex [ 0 1 -1 ] } }"), "left out", "lines and points"),
     ("Open Inventor 2, VRML 1 and 2", "cameras", "view.wrl", vrml("Viewpoint {}", "Shape { geometry Box {} }"), "left out", "cameras"),
     ("IFC 2x3, 4 and 4X3", "the scale of a map conversion", "scale.ifc", ifc(*ON_MAP), "changed", "scales of maps"),
@@ -213,6 +235,10 @@ MEASURED = [
         ", ".join("%d %d %d" % c for c in CORNERS), " ".join("%d %d %d %d -1" % s[::-1] for s in SIDES))), (1, 1, 1), 1, 6),
     ("rigid.ifc", ifc(*RIGID, schema="IFC4X3"), (4, 0.3, 2.5), 3, None),
     ("properties.ifc", ifc(*BY_PROPERTIES, schema="IFC2X3", product="IFCWALLSTANDARDCASE"), (0.3, 4, 2.5), 3, None),
+    ("half_disc.ifc", ifc(item=HALF_DISC), (2, 1, 2.5), 1.25 * 24 * math.sin(math.pi / 24), None),
+    ("two_profiles.ifc", ifc(item=TWO_PROFILES), (4, 1.3, 2.5), 6, None),
+    ("by_reference.ifc", ifc(item=[*SWEPT, "#36=IFCFIXEDREFERENCESWEPTAREASOLID(#35,$,#130,$,$,#2);"]), (3.1, 2.1, 0.4), 0.4, None),
+    ("on_plane.ifc", ifc(item=[*SWEPT, "#39=IFCPLANE(#4);", "#36=IFCSURFACECURVESWEPTAREASOLID(#35,$,#130,0.,2.,#39);"]), (3.1, 2.1, 0.4), 0.4, None),
     ("coord.gml", gml(coord), (10, 10, 0), None, 100),
     ("twice.osm", osm("HOUSE"), None, None, None),
     ("places_in_ways.osm", osm('<node id="9" lat="52" lon="4"/>', nodes=False), None, None, None),

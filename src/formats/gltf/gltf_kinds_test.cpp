@@ -272,6 +272,16 @@ TEST(GltfKinds, EachTextureHasItsOwnCoordinatesTransformAndWraps) {
   EXPECT_EQ(again->textures[std::size_t(n.base_colour_texture)].wrap_u, Wrap::mirror);
 }
 
+TEST(GltfKinds, TexelsOfASmallPictureHaveTheEdgesThatTheFileAsksFor) {
+  File file = textured();
+  file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  EXPECT_EQ(file.model().textures[0].image.width, 1);
+  file.json["samplers"][0]["magFilter"] = 9728;
+  const Model model = file.model();
+  EXPECT_EQ(model.textures[0].image.width, 256) << "each texel is a square";
+  EXPECT_EQ(model.textures[0].image.at(0, 0)[0], model.textures[0].image.at(255, 255)[0]);
+}
+
 TEST(GltfKinds, TheBaseColourMayTakeTheSecondCoordinates) {
   File file = textured();
   file.json["materials"] = {

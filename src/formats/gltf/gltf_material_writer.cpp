@@ -27,9 +27,12 @@ bool uses_alpha(const Image8& image) {
   return false;
 }
 
-/// Colour without alpha is stored as JPEG; data and alpha as PNG, which loses nothing.
+constexpr int small_px = 128;  // what JPEG mixes there is most of the picture, and saves nothing
+
+/// Colour without alpha is stored as JPEG; data, alpha and small pictures as PNG, which loses nothing.
 const char* extension_of(const Texture& texture) {
-  return texture.is_srgb && !uses_alpha(texture.image) ? ".jpg" : ".png";
+  const bool is_small = std::max(texture.image.width, texture.image.height) <= small_px;
+  return texture.is_srgb && !is_small && !uses_alpha(texture.image) ? ".jpg" : ".png";
 }
 
 /// Letters that a URI, a file system and a shell take as they are.

@@ -41,7 +41,7 @@ class MaterialReader {
       Result<Image8> picture = read_picture(images_[i], texture.name);
       const std::scoped_lock lock(mutex);
       if (picture) {
-        texture.image = *std::move(picture);
+        texture.image = has_edges_[i] != 0 ? enlarged(*picture) : *std::move(picture);
         account_.used("images");
         return;
       }
@@ -126,7 +126,22 @@ class MaterialReader {
     const int sampler = file_.index(description, "sampler", "samplers");
     model_.textures.push_back({"", {}, is_srgb, wrap_of(sampler, "wrapS"), wrap_of(sampler, "wrapT")});
     images_.push_back(image_of(description));
+    constexpr int nearest = 9728;
+    has_edges_.push_back(
+        sampler >= 0 && file_.list("samplers")[std::size_t(sampler)].value("magFilter", 0) == nearest ? 1
+                                                                                                      : 0);
     return place->second;
+  }
+
+  /// Textures are drawn smooth. Of a small picture whose texels are to have edges each becomes a square.
+  static Image8 enlarged(const Image8& picture) {
+    constexpr int enough_px = 256;
+    const int n = std::max(1, enough_px / std::max({picture.width, picture.height, 1}));
+    Image8 large(n * picture.width, n * picture.height, picture.channels);
+    for (int y = 0; y < large.height; ++y)
+      for (int x = 0; x < large.width; ++x)
+        std::copy_n(picture.at(x / n, y / n), picture.channels, large.at(x, y));
+    return large;
   }
 
   static glm::mat3 texture_transform(const Json& transform) {
@@ -268,6 +283,7 @@ class MaterialReader {
   std::vector<Lying> lying_;                      ///< the textures of the material that is read
   std::map<std::pair<int, bool>, int> textures_;  ///< (glTF texture, is sRGB) to the model's texture
   std::vector<int> images_;                       ///< of each of the model's textures
+  std::vector<char> has_edges_;                   ///< whether its texels are to be seen (NEAREST)
 };
 
 }  // namespace
