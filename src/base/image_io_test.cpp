@@ -80,6 +80,10 @@ TEST(ImageIo, RadianceIsThePixelByAllExposuresInTheOrderOfTheHeader) {
   const ImageF upward = read("", "+Y 2 +X 1");
   ASSERT_EQ(upward.height, 2);
   EXPECT_EQ(upward.at(0, 1)[0], plain.at(0, 0)[0]) << "the first row is the lowest";
+  std::string xyz = radiance("", "-Y 1 +X 2");
+  xyz.replace(xyz.find("rgbe"), 4, "xyze");
+  EXPECT_NE(read_image_float(folder.write("xyz.hdr", xyz)).errors().front().message.find("CIE XYZ"),
+            std::string::npos);
   const ImageF columns = read("", "+X 2 -Y 1");
   ASSERT_EQ(columns.width, 2);
   EXPECT_EQ(columns.at(1, 0)[2], plain.at(1, 0)[2]);

@@ -1,6 +1,8 @@
 #include "base/module.h"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
 
 #include <filesystem>
 #include <map>
@@ -19,8 +21,25 @@ std::filesystem::path module_folder() {
   return std::filesystem::path(here.dli_fname).parent_path();
 }
 
+/// Whether there is room for the libraries of a module. One of them starts threads while it is loaded, and
+/// waits for ever where it cannot have them.
+bool has_address_space() {
+  constexpr std::size_t needed_bytes = std::size_t(512) << 20;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return true;
+  void* const room =
+      mmap(nullptr, needed_bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED) return false;
+  munmap(room, needed_bytes);
+  return true;
+}
+
 /// All symbols are bound at once: in the server, this spares every worker binding those that it calls.
 Result<const void*> load(std::string_view name) {
+  if (!has_address_space())
+    return error(
+        "this needs a part of Parvis ({}) for which the memory does not suffice; allow more (ulimit -v)",
+        name);
   const std::filesystem::path file = module_folder() / fmt::format("parvis_{}.so", name);
   void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   const void* const functions = module == nullptr ? nullptr : dlsym(module, "parvis_functions");

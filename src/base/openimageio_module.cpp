@@ -142,7 +142,14 @@ Result<OpenPicture> open_picture(std::span<const std::uint8_t> bytes, const std:
   OIIO::ImageSpec spec, configuration;
   configuration.attribute("oiio:UnassociatedAlpha", 1);
   const std::string file_name = "picture." + std::string(format->extensions.substr(1, 3));
-  if (!open.input->open(file_name, spec, configuration)) return not_a_picture(name, open.input->geterror());
+  if (!open.input->open(file_name, spec, configuration)) {
+    const std::string_view front(reinterpret_cast<const char*>(bytes.data()),
+                                 std::min<std::size_t>(bytes.size(), 4096));
+    if (front.find("FORMAT=32-bit_rle_xyze") != std::string_view::npos)
+      return error("{}: its pixels are CIE XYZ, which are not read; ra_xyze -r of Radiance makes RGB of them",
+                   name);
+    return not_a_picture(name, open.input->geterror());
+  }
   if (Status status = check_size(spec, bytes.size(), name); !status) return status.errors();
   return open;
 }

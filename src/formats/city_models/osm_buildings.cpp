@@ -134,9 +134,11 @@ class Building {
   void find_heights(const OsmTags& tags) {
     base_m_ = std::max(metres_or(tags, "min_height", "building:min_level", 0.0), 0.0);
     const bool hangs = is_canopy_ && base_m_ >= headroom_m;  // min_height is where its slab begins
-    top_m_ = metres_or(tags, "height", "building:levels",
-                       base_m_ + (hangs ? canopy_slab_m : usual_height_m(tags)));
-    const bool gives_top = metres_in(tag(tags, "height")).has_value();
+    const bool is_estimated = tag(tags, "height").empty() && metres_in(tag(tags, "est_height")).has_value();
+    const char* const height = is_estimated ? "est_height" : "height";
+    top_m_ =
+        metres_or(tags, height, "building:levels", base_m_ + (hangs ? canopy_slab_m : usual_height_m(tags)));
+    const bool gives_top = metres_in(tag(tags, height)).has_value();
     const double roof_m =
         std::max(roof_ ? metres_or(tags, "roof:height", "roof:levels", usual_osm_roof_m(*roof_)) : 0.0, 0.0);
     if (!gives_top) top_m_ = std::max(top_m_, base_m_) + roof_m;  // levels do not count those in the roof
