@@ -1,6 +1,7 @@
 #include "land/roads/paving.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -167,15 +168,20 @@ void add_rows(Mesh& mesh, std::vector<Row> rows) {
     }
 }
 
+/// The directions in which a line begins and ends.
+using Ends = std::array<glm::vec3, 2>;
+Ends ends_of(const Path& line) { return {line[1] - line[0], line.back() - line[line.size() - 2]}; }
+
 /// Rows of a ribbon along `line` from `left_m` to `right_m` beside it (to the right positive), lying `lift`
-/// over the ground.
-std::vector<Row> ribbon(const Path& line, float left_m, float right_m, const GroundHeights& ground,
-                        float lift) {
+/// over the ground; the first and the last one square to `ends`.
+std::vector<Row> ribbon(const Path& line, const Ends& ends, float left_m, float right_m,
+                        const GroundHeights& ground, float lift) {
   const std::uint32_t strips = std::uint32_t(std::max(1.0f, std::ceil((right_m - left_m) / paving_step_m)));
   std::vector<Row> rows;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const glm::vec3 before = line[i > 0 ? i - 1 : 0], after = line[std::min(i + 1, line.size() - 1)];
-    const glm::vec3 right = right_of(after - before);
+    const glm::vec3 right = right_of(i == 0                 ? ends[0]
+                                     : i + 1 == line.size() ? ends[1]
+                                                            : line[i + 1] - line[i - 1]);
     Row& row = rows.emplace_back();
     for (std::uint32_t k = 0; k <= strips; ++k) {
       glm::vec3 p = line[i] + right * glm::mix(left_m, right_m, float(k) / float(strips));
@@ -223,15 +229,30 @@ void add_markings(Mesh& mesh, const Lane& lane, const Path& line, bool is_innerm
   for (float from = 0.5f * dash_gap_m; is_innermost && from + dash_m < path.length();
        from += dash_m + dash_gap_m) {
     const glm::vec3 direction = path.direction_at(from);
+    const Path dash = path.part(from, from + dash_m);
     if (direction.x > 0.0f || (direction.x == 0.0f && direction.y > 0.0f))
-      add_rows(mesh, ribbon(path.part(from, from + dash_m), left_m - dash_half_width_m,
-                            left_m + dash_half_width_m, ground, lift));
+      add_rows(mesh, ribbon(dash, ends_of(dash), left_m - dash_half_width_m, left_m + dash_half_width_m,
+                            ground, lift));
   }
   const bool waits_at_end = lane.next.size() > 1 && path.length() > 6.0f;
   const float stop_m = path.length() - 2.0f * line_half_width_m;
-  if (waits_at_end)
-    add_rows(mesh,
-             ribbon(path.part(stop_m, path.length()), left_m + 0.15f, 0.5f * lane.width_m, ground, lift));
+  if (!waits_at_end) return;
+  const Path stop = path.part(stop_m, path.length());
+  add_rows(mesh, ribbon(stop, ends_of(stop), left_m + 0.15f, 0.5f * lane.width_m, ground, lift));
+}
+
+/// The directions in which each lane begins and ends; of one through a crossing those of the lanes that it
+/// joins, so that no wedge of the ground stays open between their ribbons where it begins in a bend.
+std::vector<Ends> joined_ends(const RoadGraph& roads, const std::vector<AsphaltStrip>& strips) {
+  std::vector<Ends> own;
+  for (const AsphaltStrip& strip : strips) own.push_back(ends_of(strip.middle));
+  std::vector<Ends> joined = own;
+  for (std::size_t i = 0; i < roads.lanes.size(); ++i)
+    for (const int next : roads.lanes[i].next) {
+      if (roads.lanes[std::size_t(next)].crossing >= 0) joined[std::size_t(next)][0] = own[i][1];
+      if (roads.lanes[i].crossing >= 0) joined[i][1] = own[std::size_t(next)][0];
+    }
+  return joined;
 }
 
 /// Lanes that lie on the ground as they are stay as they are: their length is what traffic counts by.
@@ -294,11 +315,12 @@ void pave_laid_lanes(Scene& scene) {
   for (const Lane& lane : scene.roads.lanes)
     strips.push_back({laid(lane.points, ground), 0.5f * lane.width_m + margin_m});
   const AsphaltCover cover(strips);
+  const std::vector<Ends> ends = joined_ends(scene.roads, strips);
   for (std::uint32_t i = 0; i < strips.size(); ++i) {
     const Lane& lane = scene.roads.lanes[i];
-    const auto& [line, half_m] = strips[i];
-    const auto rows = [&, &line = line, half_m = half_m](float beside_m, float lift_m) {
-      return ribbon(line, -half_m - beside_m, half_m + beside_m, ground, lift_m);
+    const auto rows = [&](float beside_m, float lift_m) {
+      const float half_m = strips[i].half_m + beside_m;
+      return ribbon(strips[i].middle, ends[i], -half_m, half_m, ground, lift_m);
     };
     const bool is_street = lane.speed_limit >= aisle_m_s;
     if (is_street && lane.speed_limit <= fast_m_s) {
@@ -307,7 +329,7 @@ void pave_laid_lanes(Scene& scene) {
     }
     add_rows(model->parts[asphalt].mesh, rows(0.0f, asphalt_lift_m));
     if (is_street && lane.crossing < 0)
-      add_markings(model->parts[paint].mesh, lane, line, opposite.has(lane), ground);
+      add_markings(model->parts[paint].mesh, lane, strips[i].middle, opposite.has(lane), ground);
   }
   for (Lane& lane : scene.roads.lanes)
     for (glm::vec3& p : lane.points) p.z += asphalt_lift_m;

@@ -56,6 +56,50 @@ TEST(Paving, WithoutGroundLanesKeepTheirHeight) {
   EXPECT_NEAR(scene.roads.lanes[0].points[0].z, z + 0.06f, 1e-4f);
 }
 
+/// Whether a triangle of a mesh lies over a point in plan.
+bool covers(const Mesh& mesh, glm::vec2 p) {
+  for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+    bool is_inside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::vec2 a(mesh.positions[mesh.indices[t + k]]),
+          b(mesh.positions[mesh.indices[t + (k + 1) % 3]]);
+      is_inside &= (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) >= -1e-4f;
+    }
+    if (is_inside) return true;
+  }
+  return false;
+}
+
+TEST(Paving, LanesThatEndInABendLeaveNoWedgeOpen) {
+  int tried = 0;
+  for (const float bend_m : {26.0f, 28.0f, 30.0f, 32.0f}) {  // where the ramp's crossing begins, or near it
+    Road street, ramp;
+    street.path = {{0, -150, 0}, {0, 150, 0}}, ramp.path = {{-60, 50, 0}, {-11, bend_m, 0}, {0, 0, 0}};
+    street.is_one_way = ramp.is_one_way = true;
+    Scene scene;
+    scene.roads = *build_road_graph(std::vector{street, ramp});
+    const RoadGraph roads = scene.roads;
+    pave(scene);
+    const auto& parts = scene.objects.back().model->parts;
+    const auto asphalt = std::ranges::find(parts, "carriageway", &Part::object);
+    ASSERT_NE(asphalt, parts.end());
+    for (const Lane& lane : roads.lanes) {
+      if (lane.crossing >= 0 || lane.next.empty()) continue;
+      const glm::vec3 end = lane.points.back(),
+                      ahead = glm::normalize(end - lane.points[lane.points.size() - 2]);
+      for (const float side : {-1.0f, 1.0f})
+        for (int degrees = -60; degrees <= 60; degrees += 5, ++tried) {
+          const float angle = glm::radians(float(degrees)), aside_m = side * (0.5f * lane.width_m + 0.2f);
+          const glm::vec2 out(ahead.y, -ahead.x);
+          const glm::vec2 at =
+              glm::vec2(end) + aside_m * (std::cos(angle) * out) + 0.1f * std::sin(angle) * glm::vec2(ahead);
+          EXPECT_TRUE(covers(asphalt->mesh, at)) << bend_m << " " << side << " " << degrees;
+        }
+    }
+  }
+  EXPECT_GT(tried, 100);
+}
+
 std::size_t triangles_of_paving(const Scene& scene) { return scene.objects.back().model->triangle_count(); }
 
 /// The largest height of the paving over the slope of `hillside`, less that of its paint.
