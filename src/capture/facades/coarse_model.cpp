@@ -428,8 +428,12 @@ void name_surfaces(std::vector<CoarseSurface>& surfaces) {
 Result<CoarseModel> propose_coarse_model(const PhotographSet& set) {
   const std::vector<OrientedPoint> points = photographs::oriented_points(set);
   if (points.size() < min_points_of_piece)
-    return error("the photographs have {} points in common; parvis facade calibrate finds more",
-                 points.size());
+    return error(
+        "the photographs have {} points in common and a model needs {}: take sharp photographs of which "
+        "three "
+        "or more show each place; cameras that came without points get some by parvis facade calibrate "
+        "--cameras",
+        points.size(), min_points_of_piece);
   const Photographed place{set, points,
                            photographs::up_of_place(set, points).value_or(glm::dvec3(0.0, 0.0, 1.0)),
                            photographs::viewing_distance(set)};

@@ -9,6 +9,7 @@
 #include "capture/facades/place_folder.h"
 #include "capture/facades/prepared_photo.h"
 #include "capture/facades/relief.h"
+#include "capture/facades/surface_check.h"
 #include "capture/photographs/set_file.h"
 
 namespace parvis::facades {
@@ -55,6 +56,12 @@ std::vector<GreyPhoto> grey_photos(const PlaceSource& source, Errors& notes) {
       photos.push_back(grey_photo(*view, *picture));
   }
   return photos;
+}
+
+/// The surfaces that were found among the points, flat; not the ground, which is there in any case.
+std::vector<NamedMesh> found_surfaces(CoarseModel planes) {
+  std::erase_if(planes.surfaces, [](const CoarseSurface& s) { return s.kind == SurfaceKind::ground; });
+  return meshes_of(planes);
 }
 
 }  // namespace
@@ -116,6 +123,9 @@ Result<PlaceModel> propose_place_model(const std::filesystem::path& folder, cons
       divide_triangles(named.mesh, ground_edge * photographs::viewing_distance(loaded->set));
   model.meshes.push_back(backdrop(model.meshes, loaded->set));
   append(model.notes, reliefs.notes);
+  if (settings.hints.empty())  // what somebody decided stays
+    append(model.notes, leave_out_what_makes_worse(model.meshes, found_surfaces(model.planes),
+                                                   small_photos(source->photographs)));
   return model;
 }
 
