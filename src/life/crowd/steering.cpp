@@ -20,6 +20,7 @@ constexpr float max_behind_m =
     0.22f;                      // a wall; who is farther behind it stands on the ground of its other side
 constexpr int separations = 3;  // rounds of pushing apart
 constexpr float slow = 0.2f, patience_s = 1.0f;  // of the free speed; until somebody is blocked
+constexpr float squeezes_after_s = 0.8f, squeezing_s = 1.0f, shoulders_turned = 0.25f;
 constexpr float free_way_m = 1e9f;
 constexpr float along_horizon_s = 0.4f;  // for which those are cleared who walk the same way
 constexpr float same_way = 0.97f;        // cosine of the angle between aims: behind one another
@@ -28,6 +29,13 @@ constexpr float reluctance = 1.08f;      // to turn: by so much another way must
 constexpr std::array turns_rad = {0.3f, 0.6f, 1.0f, 1.5f};  // radians from the aim
 constexpr float widest_turn = 0.7f;                         // of who is not blocked
 constexpr float blocked_gain = 0.5f;                        // of getting on at all, for who is
+
+/// Half the breadth that somebody needs who has been blocked for so long: people turn their shoulders to
+/// squeeze through, which breaks arches before doors.
+float slim_radius(float radius_m, float blocked_s) {
+  const float turned = std::clamp((blocked_s - squeezes_after_s) / squeezing_s, 0.0f, 1.0f);
+  return radius_m * (1.0f - shoulders_turned * turned);
+}
 
 glm::vec2 turned_right(glm::vec2 v, float angle) {
   const float c = std::cos(angle), s = std::sin(angle);
@@ -210,8 +218,8 @@ glm::vec2 Steering::steered(const Walkers& walkers, std::size_t number, const Wa
     const bool stands = walkers.aim[other.index] == glm::vec2(0.0f);
     const bool goes_along = !stands && glm::dot(walkers.aim[other.index], walkers.aim[self.index]) > 0.5f;
     planes[used++] = clear_of_disc(
-        {{around.x[n], around.y[n]}, self.velocity - other.velocity, around.bodies[n]}, self.velocity,
-        goes_along ? along_horizon_s : rules_.horizon_s, step_s, stands ? 1.0f : 0.5f);
+        {{around.x[n], around.y[n]}, self.velocity - other.velocity, slim_[self.index] + slim_[other.index]},
+        self.velocity, goes_along ? along_horizon_s : rules_.horizon_s, step_s, stands ? 1.0f : 0.5f);
   }
   const float free_speed = walkers.free_speed[self.index];
   glm::vec2 best = nearest_velocity({planes.data(), used}, hard, wanted, free_speed);
@@ -232,7 +240,7 @@ void Steering::separate(Walkers& walkers, const Walls& walls, std::span<const Mo
       for (int n = 0; n < neighbour_count_[s]; ++n) {
         const std::uint32_t j = sorted_[neighbours_[s * max_neighbours + std::size_t(n)]].index;
         const glm::vec2 apart = walkers.position[i] - walkers.position[j];
-        const float touching = walkers.radius_m[i] + walkers.radius_m[j], distance_2 = glm::dot(apart, apart);
+        const float touching = slim_[i] + slim_[j], distance_2 = glm::dot(apart, apart);
         if (distance_2 >= touching * touching) continue;
         const float distance = std::sqrt(distance_2);
         const glm::vec2 away = distance > 1e-4f ? apart / distance : glm::vec2(i < j ? 1.0f : -1.0f, 0.0f);
@@ -267,6 +275,8 @@ void Steering::step(Walkers& walkers, const Walls& walls, std::span<const Moving
   if (walkers.size() == 0) return;
   sort(walkers);
   const std::size_t count = walkers.size();
+  slim_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) slim_[i] = slim_radius(walkers.radius_m[i], walkers.blocked_s[i]);
   neighbours_.resize(count * max_neighbours), neighbour_count_.resize(count), steered_.resize(count);
   for (std::size_t s = 0; s < count; ++s) {
     const Around around = look_around(s);

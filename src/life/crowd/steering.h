@@ -4,8 +4,8 @@
 // Departures from van den Berg and others 2011 (avoidance.h): the preferred speed falls with the distance to
 // the next person ahead (Tordeux, Chraibi and Seyfried 2016, "Collision-free speed model for pedestrian
 // dynamics"), since reciprocal avoidance alone lets dense crowds walk far too fast; a person whose way is
-// blocked by somebody who comes the other way turns to the right; bodies that touch are pushed apart, and
-// walls have the last word.
+// blocked by somebody who comes the other way turns to the right, and in time turns the shoulders; bodies
+// that touch are pushed apart, and walls have the last word.
 #pragma once
 
 #include <array>
@@ -99,6 +99,7 @@ class Steering {
   std::vector<std::uint32_t> neighbours_;  ///< max_neighbours each, of those in sorted order
   std::vector<std::uint8_t> neighbour_count_;
   std::vector<glm::vec2> steered_;
+  std::vector<float> slim_;  ///< of each person: the radius that they need when they turn their shoulders
   glm::vec2 corner_{0.0f};
   glm::ivec2 size_{0};
   float cell_m_ = 1.0f;
