@@ -134,15 +134,32 @@ std::string clock_time(double hours) {
   return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);
 }
 
+/// When the sun passes the horizon between 0 and 24 o'clock of a date, in order: a night beside midnight may
+/// give it a setting more than the day between two nights has.
+std::vector<std::pair<double, std::string>> passings(const light::PlaceAndTime& day) {
+  constexpr double same_h = 1.0 / 60.0;
+  std::vector<std::pair<double, std::string>> found;
+  for (const double shift : {-24.0, 0.0, 24.0}) {
+    const light::DaylightHours hours = light::daylight_hours(light::at_hour(day, 12.0 + shift));
+    for (const auto& [hour, name] : {std::pair(hours.rise_h, "sunrise"), {hours.set_h, "sunset"}}) {
+      if (!hour || *hour + shift < 0.0 || *hour + shift >= 24.0) continue;
+      const bool is_known = std::ranges::any_of(
+          found, [&](const auto& each) { return std::abs(each.first - *hour - shift) < same_h; });
+      if (!is_known) found.emplace_back(*hour + shift, name);
+    }
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
 void print_daylight(const light::PlaceAndTime& day, const std::string& date) {
-  const light::DaylightHours hours = light::daylight_hours(day);
-  const std::string rise = hours.rise_h ? "sunrise " + clock_time(*hours.rise_h) : "no sunrise",
-                    set = hours.set_h ? "sunset " + clock_time(*hours.set_h) : "no sunset";
-  if (!hours.rise_h && !hours.set_h)
-    fmt::print("{}: the sun does not {}\n", date, hours.is_polar_night() ? "rise" : "set");
-  else
-    fmt::print("{}: {}, {}, at UTC{:+g}\n", date, hours.sets_first() ? set : rise,
-               hours.sets_first() ? rise : set, day.time_zone_h);
+  std::vector<std::string> said;
+  for (const auto& [hour, name] : passings(day)) said.push_back(fmt::format("{} {}", name, clock_time(hour)));
+  if (said.empty())
+    return fmt::print("{}: the sun does not {}\n", date,
+                      light::daylight_hours(day).is_polar_night() ? "rise" : "set");
+  if (said.size() == 1) said.emplace_back(said[0].starts_with("sunset") ? "no sunrise" : "no sunset");
+  fmt::print("{}: {}, at UTC{:+g}\n", date, fmt::join(said, ", "), day.time_zone_h);
 }
 
 /// Where the sun stands on a day, without a scene: rise and set, its highest position, and each hour.

@@ -408,6 +408,9 @@ class HoursOfSun(BeforeAMirror):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("2026-06-21: sunrise 05:49, sunset 21:16, at UTC+2", done.stdout)
         self.assertRegex(done.stdout, r"13:3\d +(179\.9|180\.0)\d* +69\.7\d*  highest")
+        for date, words in (("2026-08-24", "the sun does not set"), ("2026-08-25", "sunset 00:29, sunrise 01:33, sunset 23:56")):
+            said = run("sun", "--place", "78.2232,15.6267", "--clock", "2", "--date", date).stdout
+            self.assertIn(f"{date}: {words}", said)
         self.assertEqual(run("sun", "--date", "2026-06-21").returncode, 2)
         self.assertEqual(run("sun", "--place", "43.7,7.26").returncode, 1)
 
@@ -1172,6 +1175,14 @@ class Libraries(InAFolder):
 
 
 class BadModels(InAFolder):
+    def test_too_little_address_space_is_said_at_once(self):
+        self.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        scene = self.write("scene.xp", 'model(file="a.obj")\n')
+        for limit in (300000, 450000):  # kB; of the second a library takes so much that it waits for a thread for ever
+            done = run("check", scene, before=["bash", "-c", f'ulimit -v {limit}; exec "$@"', "sh"])
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn("ulimit -v", done.stderr)
+
     def test_damaged_glb(self):
         whole = glb(*triangle())
         self.expect_bad_model("short.glb", whole[: len(whole) // 2], is_rendered=True)
