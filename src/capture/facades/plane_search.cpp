@@ -17,8 +17,7 @@ constexpr int hypotheses = 600;
 constexpr std::size_t max_planes = 32;
 constexpr double min_flatness = 0.5;
 constexpr double max_wall_slope = 0.25, min_ground_slope = 0.985;  // of the normal's upward part
-constexpr double min_ground_point_slope = 0.85;  // points of pavements, seen along them, have rough normals
-constexpr double min_agreement = 0.8;            // cosine between a point's normal and its plane's
+constexpr double min_agreement = 0.8;  // cosine between a point's normal and its plane's
 constexpr double grid_tolerance_deg = 4.0;
 
 std::optional<SurfaceKind> kind_of(double upward) {
@@ -35,10 +34,9 @@ class PlaneSearch {
       : points_(points), up_(up), tolerance_(tolerance), is_free_(points.size(), true) {}
 
   /// The plane with the most points whose hypothesis `accepts` and `penalty` allow, fitted; nothing below
-  /// `min_points`. Hypotheses have the normals of their points, or are `level`.
+  /// `min_points`.
   template <class Accepts, class Penalty>
-  std::optional<FoundPlane> best(std::size_t min_points, Accepts&& accepts, Penalty&& penalty,
-                                 bool is_level = false) {
+  std::optional<FoundPlane> best(std::size_t min_points, Accepts&& accepts, Penalty&& penalty) {
     std::vector<std::size_t> candidates;
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (is_free_[i] && points_[i].flatness > min_flatness && accepts(points_[i])) candidates.push_back(i);
@@ -48,7 +46,7 @@ class PlaneSearch {
     std::vector<std::size_t> seeds(hypotheses);
     for (std::size_t& seed : seeds) seed = candidates[std::size_t(random_.index(int(candidates.size())))];
     parallel_for(hypotheses, [&](std::size_t h) {
-      planes[h] = is_level ? level(points_[seeds[h]]) : hypothesis(points_[seeds[h]]);
+      planes[h] = hypothesis(points_[seeds[h]]);
       scores[h] = double(count(planes[h])) - penalty(planes[h]);
     });
     const std::size_t chosen = std::size_t(std::ranges::max_element(scores) - scores.begin());
@@ -77,9 +75,6 @@ class PlaneSearch {
     plane.normal = plane.kind == SurfaceKind::wall ? glm::normalize(seed.normal - upward * up_) : seed.normal;
     plane.offset = glm::dot(plane.normal, seed.position);
     return plane;
-  }
-  FoundPlane level(const OrientedPoint& seed) const {
-    return {SurfaceKind::ground, up_, glm::dot(up_, seed.position), {}};
   }
   bool lies_in(const FoundPlane& plane, const OrientedPoint& point) const {
     if (std::abs(glm::dot(plane.normal, point.position) - plane.offset) > tolerance_) return false;
@@ -157,8 +152,7 @@ std::vector<FoundPlane> find_planes(const std::vector<OrientedPoint>& points, gl
     lowest_camera = std::min(lowest_camera, glm::dot(camera, up));
   // The ground has hardly a point below it.
   const auto is_low_and_level = [&](const OrientedPoint& point) {
-    return glm::dot(point.normal, up) >= min_ground_point_slope &&
-           glm::dot(point.position, up) < lowest_camera;
+    return glm::dot(point.normal, up) >= min_ground_slope && glm::dot(point.position, up) < lowest_camera;
   };
   const auto points_below = [&](const FoundPlane& plane) {
     double below = 0.0;
@@ -167,8 +161,7 @@ std::vector<FoundPlane> find_planes(const std::vector<OrientedPoint>& points, gl
     return 2.0 * below;
   };
   const std::size_t min_ground = std::max<std::size_t>(20, points.size() / 500);
-  if (auto ground = search.best(min_ground, is_low_and_level, points_below, true);
-      ground && glm::dot(ground->normal, up) >= min_ground_slope) {
+  if (auto ground = search.best(min_ground, is_low_and_level, points_below)) {
     search.take(*ground);
     planes.push_back(std::move(*ground));
   }
