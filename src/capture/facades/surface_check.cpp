@@ -65,7 +65,7 @@ bool is_better(const std::vector<double>& changed, const std::vector<double>& no
   return better >= min_share_of_photos * concerned;
 }
 
-/// What becomes of a surface, and what the photographs say of the model then.
+/// A change to a surface, and the errors of the photographs after it.
 struct Change {
   std::size_t mesh = 0;
   const NamedMesh* flat = nullptr;  ///< null: it is taken out
