@@ -23,6 +23,7 @@ const LIMIT_M = 1e-3, LIMIT_SHARE = 1e-3;
 // Differences that are none of Parvis's reading: part of a path, how many objects at most, and the reason.
 const EXPLAINED = [
   ['08-ifc-indexed-outlines', 2, 'a slab and a column with arcs: they are divided into other chords than web-ifc has'],
+  ['scenes/pavilion.ifc', 7, 'round columns: 48 chords to a circle, of which web-ifc draws 47'],
   ['ifc/wall.ifc', 1, 'a wall with a round opening: IFC++ divides a circle into other chords than web-ifc'],
   ['scenes/crossroads.osm', 1, 'parts stand in place of the outline of a church'],
   ['scenes/market.osm', 3, 'nodes with eight decimals, the last a 5: libosmium keeps seven and rounds binary fractions otherwise'],
