@@ -33,6 +33,9 @@ pkg_check_modules(sndfile REQUIRED IMPORTED_TARGET sndfile)
 pkg_check_modules(ebur128 REQUIRED IMPORTED_TARGET libebur128)
 pkg_check_modules(openal REQUIRED IMPORTED_TARGET openal)
 pkg_check_modules(liblo REQUIRED IMPORTED_TARGET liblo)
+pkg_check_modules(sdl2 REQUIRED IMPORTED_TARGET sdl2)
+set_target_properties(PkgConfig::sdl2 PROPERTIES INTERFACE_COMPILE_OPTIONS "")  # -D_REENTRANT, which precompiled headers lack
+pkg_check_modules(spnav REQUIRED IMPORTED_TARGET spnav)
 find_library(citygml_library citygml REQUIRED)  # its .pc asks for packages that Debian's does not bring
 
 # libosmium is headers alone; what it reads OpenStreetMap's two formats with is linked by those who include it.

@@ -44,6 +44,7 @@ class Registries;
   ROOM(trees)                                                                              \
   ROOM(vegetation)                                                                         \
   ROOM(design) /* after vegetation, whose plants it places */                              \
+  ROOM(devices)                                                                            \
   ROOM(view_dependent_objects)                                                             \
   ROOM(plan_drawing)
 

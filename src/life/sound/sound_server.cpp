@@ -59,21 +59,29 @@ Datagrams::~Datagrams() {
 std::string Datagrams::receive(int wait_ms) {
   pollfd waiting{socket_, POLLIN, 0};
   if (poll(&waiting, 1, wait_ms) <= 0) return {};
-  std::string packet(65'536, '\0');
+  buffer_.resize(65'536);
   sockaddr_storage from{};
   socklen_t size = sizeof from;
-  const ssize_t count = recvfrom(socket_, packet.data(), packet.size(), MSG_DONTWAIT,
+  const ssize_t count = recvfrom(socket_, buffer_.data(), buffer_.size(), MSG_DONTWAIT,
                                  reinterpret_cast<sockaddr*>(&from), &size);
   if (count <= 0) return {};
   peer_.assign(reinterpret_cast<const char*>(&from), size);
-  packet.resize(std::size_t(count));
-  return packet;
+  return buffer_.substr(0, std::size_t(count));
 }
 
 void Datagrams::send(std::string_view packet) {
   if (!peer_.empty())
     static_cast<void>(sendto(socket_, packet.data(), packet.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
                              reinterpret_cast<const sockaddr*>(peer_.data()), socklen_t(peer_.size())));
+}
+
+std::string Datagrams::sender() const {
+  sockaddr_in from{};
+  if (peer_.size() < sizeof from) return "";
+  std::memcpy(&from, peer_.data(), sizeof from);
+  std::array<char, INET_ADDRSTRLEN> text{};
+  inet_ntop(AF_INET, &from.sin_addr, text.data(), text.size());
+  return fmt::format("{}:{}", text.data(), ntohs(from.sin_port));
 }
 
 int Datagrams::port() const {

@@ -32,13 +32,16 @@ class Datagrams {
   std::string receive(int wait_ms);
   /// Sends; what cannot be sent is lost, as any packet may be.
   void send(std::string_view packet);
+  /// Address and port of who sent the last packet, as 127.0.0.1:5000; empty: nobody has.
+  std::string sender() const;
   /// The port at which packets are waited for.
   int port() const;
 
  private:
   explicit Datagrams(int socket) : socket_(socket) {}
   int socket_;
-  std::string peer_;  ///< address of the last sender
+  std::string peer_;    ///< address of the last sender
+  std::string buffer_;  ///< of packets that come
 };
 
 /// The state of a server, from packets; the network is elsewhere.
