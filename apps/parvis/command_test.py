@@ -5,6 +5,7 @@ Usage: command_test.py PARVIS [unittest's arguments]. Exit status 0 is done, 1 f
 
 import base64
 import csv
+import glob
 import json
 import math
 import os
@@ -1754,6 +1755,125 @@ class Surroundings(InAFolder):
             "render", scene, *SIZE, "-o", self.folder / "out.png",
             words=["offers OpenGL 3.3", "4.5"], environment={"MESA_GL_VERSION_OVERRIDE": "3.3"},
         )
+
+
+class Displays(BeforeAMirror):
+    """Scenes on the walls of a room."""
+
+    ROOM = {
+        "parvis_display": 1, "stereo": "anaglyph", "head": "head", "wand": "wand",
+        "walls": [
+            {"name": "front", "lower_left": [-1, 2, 0], "lower_right": [1, 2, 0], "upper_right": [1, 2, 2], "pixels": [64, 64]},
+            {"name": "floor", "lower_left": [-1, 0, 0], "lower_right": [1, 0, 0], "upper_right": [1, 2, 0], "pixels": [64, 64]},
+        ],
+    }
+
+    def write_room(self, **changes):
+        return self.write("room.json", json.dumps({**self.ROOM, **changes}))
+
+    def test_each_wall_and_eye_is_drawn_and_traced(self):
+        scene, room = self.write_place(), self.write_room()
+        for command, options in [("render", []), ("reference", ["--samples", "4"])]:
+            done = run(command, scene, "--display", room, *options, "-o", self.folder / command)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            names = sorted(path.name for path in (self.folder / command).iterdir())
+            self.assertEqual(names, [f"{wall}{eye}.png" for wall in ["floor", "front"] for eye in ["", "_left", "_right"]])
+        pictures = {path.name: path.read_bytes() for path in (self.folder / "render").iterdir()}
+        self.assertNotEqual(pictures["front_left.png"], pictures["front_right.png"])
+        self.assertEqual(run("render", scene, "--display", room, "--eye", "0.4,0.2,1.6", "--wall", "front", "-o", self.folder / "moved").returncode, 0)
+        self.assertEqual(sorted(path.name for path in (self.folder / "moved").iterdir()), ["front.png", "front_left.png", "front_right.png"])
+        self.assertNotEqual((self.folder / "moved/front.png").read_bytes(), pictures["front.png"])
+
+    def test_every_example_is_drawn(self):
+        for example in sorted((ROOT / "scenes/displays").iterdir()):
+            if example.name == "wand.json":
+                continue
+            done = run("render", self.write_place(), "--display", example, "-o", self.folder / "out")
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_bad_input_is_answered(self):
+        scene, out = self.write_place(), self.folder / "out"
+        for changes, words in [({"stereo": "both"}, ["stereo", "anaglyph"]), ({"parvis_display": 7}, ["version 7", "version 1"]),
+                               ({"walls": self.ROOM["walls"] * 150}, ["300 walls", "64"])]:
+            self.expect_failure("render", scene, "--display", self.write_room(**changes), "-o", out, words=words)
+        corners = self.write("a.pvx", "<pvx><Machine Name='x'/></pvx>")
+        self.expect_failure("render", scene, "--display", corners, "-o", out, words=["a.pvx:1", "without corners"])
+        self.expect_failure("render", scene, "--display", self.write_room(), "--eye", "0,9,0", "-o", out, words=["not before wall"])
+        self.expect_failure("render", scene, "--display", self.write_room(), "--wall", "frond", "-o", out, words=["no such wall", "front"])
+        self.write("devices.json", '{"parvis_devices": 1, "buttons": {"1": "dance"}}')
+        self.expect_failure("view", scene, "--display", self.write_room(), "--devices", self.folder / "devices.json", words=["dance", "view plan"])
+
+    def test_windows_show_what_render_writes(self):
+        if not shutil.which("xvfb-run"):
+            self.skipTest("skipped: no xvfb-run here")
+        scene, room = self.write_place(), self.write_room(head="", wand="")
+        done = run("view", scene, "--display", room, "--frames", "3", "--walls-output", self.folder / "shown", before=["xvfb-run", "-a", "-f", str(self.folder / "Xauthority")])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(run("render", scene, "--display", room, "-o", self.folder / "drawn").returncode, 0)
+        for name in ["front.png", "floor_left.png"]:
+            self.assertEqual(pixels((self.folder / "shown" / name).read_bytes()), pixels((self.folder / "drawn" / name).read_bytes()))
+
+
+class DividedWalls(Divided):
+    """Walls of several processes."""
+
+    def begin(self, *options):
+        if not shutil.which("xvfb-run"):
+            self.skipTest("skipped: no xvfb-run here")
+        room = self.write("room.json", json.dumps({**Displays.ROOM, "head": "", "wand": ""}))
+        self.said = open(self.folder / "said", "w+")
+        self.addCleanup(self.said.close)
+        command = ["xvfb-run", "-a", "-f", str(self.folder / "Xauthority"), *MPIRUN, PARVIS, "view", self.write_place(), "--display", room, *options]
+        process = subprocess.Popen(list(map(str, command)), stdout=self.said, stderr=self.said, start_new_session=True)
+        self.addCleanup(process.wait)
+        self.addCleanup(lambda: process.poll() is None and os.killpg(process.pid, 15))
+        return process
+
+    def frames(self, rank):
+        log = self.folder / f"log.{rank}.csv"
+        return [line.split(",") for line in log.read_text().splitlines()] if log.exists() else []
+
+    def test_they_show_the_same_second(self):
+        process = self.begin("--frames", "20", "--frame-log", self.folder / "log")
+        self.assertEqual(process.wait(timeout=120), 0)
+        first, second = self.frames(0), self.frames(1)
+        self.assertEqual(len(first), 20)
+        self.assertEqual([(frame, seconds) for frame, _, seconds in first], [(frame, seconds) for frame, _, seconds in second])
+        self.said.seek(0)
+        said = self.said.read()
+        self.assertIn('process 1 shows wall "floor"', said)
+        self.assertNotIn("another state", said)
+
+    def test_one_that_dies_ends_the_show(self):
+        process = self.begin("--frame-log", self.folder / "log")
+        began = time.monotonic()
+        while len(self.frames(1)) < 2 or len(self.frames(0)) < 2:
+            self.assertLess(time.monotonic() - began, 120)
+            self.assertIsNone(process.poll())
+            time.sleep(0.1)
+        (mpirun,) = (int(pathlib.Path(status).parent.name) for status in glob.glob("/proc/[0-9]*/status")
+                     if self.is_mpirun_of(status, process.pid))
+        os.kill(self.process_of_rank(1, mpirun), 9)
+        killed = time.monotonic()
+        while self.is_running(mpirun):
+            time.sleep(0.02)
+            self.assertLess(time.monotonic() - killed, 60)
+        self.assertLess(time.monotonic() - killed, 10)  # a second on a machine with nothing else to do
+        self.assertNotEqual(process.wait(timeout=60), 0)
+        self.said.seek(0)
+        self.assertRegex(self.said.read(), r"rank 1 .*(\n.*)?exited on signal 9")
+
+    def is_running(self, number):
+        try:
+            return "State:\tZ" not in pathlib.Path(f"/proc/{number}/status").read_text()
+        except OSError:
+            return False
+
+    def is_mpirun_of(self, status, session):
+        try:
+            return os.getsid(int(pathlib.Path(status).parent.name)) == session and "Name:\tmpirun" in pathlib.Path(status).read_text()
+        except OSError:
+            return False
 
 
 class Window(InAFolder):

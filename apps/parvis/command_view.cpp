@@ -1,6 +1,10 @@
 // parvis view: the window.
+#include "base/files.h"
 #include "commands.h"
+#include "display_arguments.h"
+#include "machines/processes.h"
 #include "scene_arguments.h"
+#include "viewer/walls.h"
 #include "viewer/window.h"
 #include "window_surroundings.h"
 
@@ -12,6 +16,9 @@ struct ViewArguments : SceneArguments {
   std::string rate;      ///< of --fps; empty: not given
   std::string language;  ///< of --language; empty: the locale's
   std::string sound;     ///< of --sound; empty: not given
+  DisplayArguments display;
+  std::filesystem::path devices;  ///< of --devices; empty: not given
+  viewer::WallsOptions on_walls;  ///< what --display alone has
 };
 
 /// --fps.
@@ -33,11 +40,56 @@ Status read_rate(const std::string& rate, viewer::WindowOptions& window) {
   return Ok{};
 }
 
+/// --devices.
+Result<devices::DeviceSettings> read_settings(const std::filesystem::path& file) {
+  const Result<std::string> text = read_file(file, 1 << 20);
+  if (!text) return text.errors();
+  return devices::read_devices(*text, file.string());
+}
+
+/// Shows it on the walls of a room.
+Status view_walls(ViewArguments& arguments) {
+  if (Status status = arguments.expect_one_scenario(); !status) return status;
+  viewer::WallsOptions& options = arguments.on_walls;
+  const Result<display::Display> display = arguments.display.read();
+  if (!display) return display.errors();
+  options.display = *display;
+  options.eye = arguments.display.head(*display).position;
+  if (arguments.devices.empty()) {
+    if (display->head.empty() && display->wand.empty()) options.devices.osc_port = 0;
+  } else {
+    const Result<devices::DeviceSettings> settings = read_settings(arguments.devices);
+    if (!settings) return settings.errors();
+    options.devices = *settings;
+  }
+  options.title = arguments.scene.stem().string(), options.camera = arguments.camera;
+  options.max_frames = arguments.window.max_frames, options.plans = arguments.window.plans;
+  options.sound = !arguments.sound.empty() ? arguments.sound : options.max_frames > 0 ? "off" : "default";
+  options.kept_pictures = kept_pictures();
+  const Result<machines::Processes> processes = machines::Processes::join();
+  if (!processes) return processes.errors();
+  options.processes = *processes;
+  Result<stage::Simulation> simulation = arguments.open_simulation();
+  if (!simulation) return simulation.errors();
+  if (!arguments.tour.empty())
+    if (const Result<double> length = simulation->actions().start_tour(arguments.tour); !length)
+      return length.errors();
+  if (Status status = viewer::show_walls(*std::move(simulation), options); !status) return status;
+  processes->leave();
+  return Ok{};
+}
+
 Status view(ViewArguments& arguments) {
+  if (arguments.display.is_given()) return view_walls(arguments);
   viewer::WindowOptions& window = arguments.window;
   if (Status status = arguments.read_size(window.width, window.height); !status) return status;
   if (Status status = arguments.expect_one_scenario(); !status) return status;
   if (Status status = read_rate(arguments.rate, window); !status) return status;
+  if (!arguments.devices.empty()) {
+    const Result<devices::DeviceSettings> settings = read_settings(arguments.devices);
+    if (!settings) return settings.errors();
+    window.devices = *settings;
+  }
   // Pictures that can be repeated make no noise.
   window.sound = !arguments.sound.empty() ? arguments.sound : window.max_frames > 0 ? "off" : "default";
   window.camera = arguments.camera;
@@ -82,7 +134,28 @@ void add_view(CLI::App& app, Chosen& chosen) {
                       "Folder of the pictures that the key P takes (default: the scene's)");
   command->add_option("--screenshot", arguments->window.screenshot,
                       "Write what the window shows last, panel and all, when it closes");
-  command->footer("Example: parvis view out/paper/paper.xp --camera street");
+  arguments->display.add(*command);
+  CLI::Option* const display = command->get_option("--display");
+  for (const char* of_a_window : {"--size", "--fps", "--panel", "--screenshot", "--output"})
+    display->excludes(of_a_window);
+  const auto of_walls = [&](const char* name, std::filesystem::path& file, const char* help) {
+    command->add_option(name, file, help)->needs(display)->group("Displays");
+  };
+  command->add_option(
+      "--devices", arguments->devices,
+      "Gamepads, 3D mice, trackers and a wand (.json; docs/displays.md); trackers and wand with "
+      "--display");
+  of_walls("--record", arguments->on_walls.recording, "Write what devices say to this file");
+  of_walls("--replay", arguments->on_walls.replayed, "Such a file in place of the devices");
+  of_walls("--frame-log", arguments->on_walls.frame_log,
+           "Write when each frame was shown, to FILE.PROCESS.csv");
+  of_walls("--walls-output", arguments->on_walls.screenshots,
+           "Write what the walls show last, to this folder");
+  command->footer(
+      "Example: parvis view out/paper/paper.xp --camera street\n"
+      "Example: mpirun -n 5 parvis view scenes/square.xp --display scenes/displays/cave.json\n"
+      "Started by mpirun, each process shows one wall; one process more than walls shows an operator's "
+      "view.");
   command->callback([arguments, &chosen] { chosen = [arguments] { return view(*arguments); }; });
 }
 

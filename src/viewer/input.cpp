@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "viewer/key_names.h"
+#include "viewer/visit_keys.h"
 
 namespace parvis::viewer {
 namespace {
@@ -256,7 +257,37 @@ bool Input::press_planning(int key, int modifiers) {
   return true;
 }
 
+bool press_visit_key(Visit& visit, int key) {
+  switch (key) {
+    case GLFW_KEY_1:
+      visit.set_mode(Mode::walk);
+      return true;
+    case GLFW_KEY_2:
+      visit.set_mode(Mode::fly);
+      return true;
+    case GLFW_KEY_3:
+      visit.follow_next_vehicle();
+      return true;
+    case GLFW_KEY_TAB:
+      visit.show_next_scenario();
+      return true;
+    case GLFW_KEY_SPACE:
+      visit.halt(!visit.is_halted());
+      return true;
+    case GLFW_KEY_N:
+      visit.step_halted();
+      return true;
+    case GLFW_KEY_PAGE_UP:
+    case GLFW_KEY_PAGE_DOWN:
+      visit.step_realism(key == GLFW_KEY_PAGE_UP ? 1 : -1);
+      return true;
+    default:
+      return false;
+  }
+}
+
 void Input::press(int key) {
+  if (press_visit_key(visit_, key)) return;
   switch (key) {
     case GLFW_KEY_ESCAPE:
       if (!std::exchange(panel_.shows_keys, false)) glfwSetWindowShouldClose(window_, GLFW_TRUE);
@@ -267,34 +298,12 @@ void Input::press(int key) {
     case GLFW_KEY_F2:
       panel_.is_open = !panel_.is_open;
       break;
-    case GLFW_KEY_1:
-      visit_.set_mode(Mode::walk);
-      break;
-    case GLFW_KEY_2:
-      visit_.set_mode(Mode::fly);
-      break;
-    case GLFW_KEY_3:
-      visit_.follow_next_vehicle();
-      break;
-    case GLFW_KEY_TAB:
-      visit_.show_next_scenario();
-      break;
-    case GLFW_KEY_SPACE:
-      visit_.halt(!visit_.is_halted());
-      break;
-    case GLFW_KEY_N:
-      visit_.step_halted();
-      break;
     case GLFW_KEY_P:
       visit_.take_picture();
       break;
     case GLFW_KEY_M:
       hearing_.mute(!hearing_.is_muted());
       if (hearing_.is_on()) visit_.notice(hearing_.is_muted() ? "The sound is muted" : "The sound is heard");
-      break;
-    case GLFW_KEY_PAGE_UP:
-    case GLFW_KEY_PAGE_DOWN:
-      visit_.step_realism(key == GLFW_KEY_PAGE_UP ? 1 : -1);
       break;
     default:
       break;

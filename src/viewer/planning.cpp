@@ -95,7 +95,7 @@ bool Planning::open(const std::string& design) {
   if (study)
     desk_->session.set_witness(
         [this](const std::string& text, const Status& done) { study->note_command(text, done); });
-  if (study || simulation.scene.file.empty()) return true;
+  if (study || !keeps_files || simulation.scene.file.empty()) return true;
   const Result<std::string> restored =
       desk_->session.keep_journal(design::journal_file(simulation.scene.file, desk_->session.name()));
   if (!restored)
@@ -199,7 +199,7 @@ void Planning::redo() {
 }
 
 void Planning::save() {
-  if (!desk_ || study) return;
+  if (!desk_ || study || !keeps_files) return;
   const std::filesystem::path scene = visit_.scene().file;
   if (scene.empty()) return visit_.notice_error("this scene has no file beside which the design could lie");
   std::filesystem::path file = design::file_of(desk_->session);

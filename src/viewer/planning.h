@@ -32,6 +32,8 @@ class Planning {
   /// The session that a participant works in, which logs what is done: no files are written then. Null: there
   /// is none.
   study::Session* study = nullptr;
+  /// Whether journal and designs are written: of several processes that show one scene, the first does.
+  bool keeps_files = true;
 
   planner::Tool* tool() { return desk_ ? &desk_->tool : nullptr; }          ///< null: no design is open
   design::Session* session() { return desk_ ? &desk_->session : nullptr; }  ///< null: no design is open

@@ -13,6 +13,7 @@
 #include "reflections/methods/settings.h"
 #include "stage/refinement.h"
 #include "stage/stillness.h"
+#include "viewer/feeling.h"
 #include "viewer/input.h"
 #include "viewer/keys.h"
 #include "viewer/panel.h"
@@ -139,6 +140,7 @@ class Frames {
     }
     if (!planning_.is_on()) visit_.notice("F1 shows the keys, F2 the panel, K what can be placed");
     stage.hold_rate(rate_of(options, gl::is_software()));
+    open_devices();
     // A camera that follows takes the view along until the visitor moves.
     if (!options.camera.empty() && !visit_.actions().camera(visit_.scene())) visit_.look_from(options.camera);
   }
@@ -154,8 +156,11 @@ class Frames {
       const bool held = planning_.holds_things();
       if (!rests_ && !held) visit_.stage().follow_clock(1e3 * double(seconds));
       if (study_) study_->begin_frame();
-      const Controls controls = input_.poll(double(seconds));
+      Controls controls = input_.poll(double(seconds));
+      if (devices_) move_by_devices(controls, double(seconds));
+      const glm::vec3 stood = visit_.camera().position_in_world();
       visit_.step(controls, seconds, planning_.holds_things());
+      feeling_.step(visit_, planning_, controls, stood, seconds, devices_ ? &*devices_ : nullptr);
       if (study_) study_->add_frame(double(seconds));
       hear(double(seconds));
       draw(double(seconds));
@@ -179,6 +184,28 @@ class Frames {
  private:
   static constexpr int settling_frames = 30;
   static constexpr double rest_s = 0.1;  ///< between frames at rest: the ray tracer needs the processor
+
+  /// A scene that can be felt needs a gamepad; a file of devices may ask for more.
+  void open_devices() {
+    if (!options_.devices && (options_.max_frames > 0 || !Feeling::is_in(visit_.scene()))) return;
+    devices::DeviceSettings settings = options_.devices.value_or(devices::DeviceSettings());
+    settings.osc_port = 0;  // trackers are for displays
+    if (Result<devices::Devices> opened = devices::Devices::open(settings))
+      devices_.emplace(*std::move(opened));
+  }
+
+  /// Sticks and 3D mice move the visitor.
+  void move_by_devices(Controls& controls, double passed_s) {
+    constexpr double radians_per_s = 1.2;
+    devices_->poll(devices_s_ += passed_s);
+    for (const std::string& note : devices_->take_notes()) visit_.notice(note);
+    devices_->state().take_buttons();  // GLFW reports them
+    const glm::dvec2 stick = devices_->state().stick(devices_->settings().buttons_of);
+    const std::array<double, 5> motion = devices_->state().motion();
+    controls.move += glm::vec3(stick.y + motion[1], -motion[0], motion[2]);
+    controls.move = glm::clamp(controls.move, -1.0f, 1.0f);
+    controls.turn += glm::vec2(radians_per_s * passed_s * glm::dvec2(motion[3] - stick.x, motion[4]));
+  }
 
   void hear(double passed_s) {
     hearing_.step(visit_.scene(), visit_.camera(), visit_.stage().simulation().clock.time_s(), passed_s);
@@ -260,6 +287,9 @@ class Frames {
   Planning planning_;
   PlanningBars bars_;
   std::optional<StudyDesk> study_;
+  std::optional<devices::Devices> devices_;
+  double devices_s_ = 0.0;  ///< since the first frame
+  Feeling feeling_;
   Input input_;
   ImguiInput imgui_input_;
   FrameStatistics statistics_;

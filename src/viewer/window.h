@@ -6,6 +6,7 @@
 #include <string>
 
 #include "planning/design/words.h"
+#include "planning/devices/devices.h"
 #include "planning/study/session.h"
 #include "stage/stage.h"
 #include "viewer/visit.h"
@@ -27,7 +28,8 @@ struct WindowOptions {
   study::Session* study = nullptr;          ///< of a participant who works in the window; not owned
   /// The scene of the session's next part, when this one's are over; nothing where there is none.
   std::function<Result<std::optional<stage::Simulation>>()> next_scene = {};
-  std::string sound = "default";  ///< the device that sounds (sound/device.h); off: none
+  std::optional<devices::DeviceSettings> devices;  ///< gamepads and 3D mice; unset: as haptic nodes need them
+  std::string sound = "default";                   ///< the device that sounds (sound/device.h); off: none
   std::string screenshot;  ///< what the window shows last, panel and all, is written here; empty: nowhere
 };
 
