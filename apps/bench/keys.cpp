@@ -75,6 +75,13 @@ constexpr Key keys[]{
     {"sus_cases_passed", "", minimum(1.0), "scores, refusals, percentiles and intervals of ../shared/data/study", {{"sus_cases_passed_with_items_shifted_by_one"}}},
     {"latin_squares_balanced", "", minimum(1.0), "squares of 3, 4 and 5 conditions against the counts of ../shared/data/study", {{"latin_squares_balanced_of_controls"}}},
     {"xdf_read_back", "", minimum(1.0), "every value of a session as XDF, read by libxdf", {{"xdf_read_back_of_one_bit_changed"}}},
+    // display
+    {"offaxis_error_px", "px", maximum(0.1), "middles of shining balls, five walls, two eyes, a leaning head (four): drawn against traced, the farthest", {{"offaxis_error_px_of_centred_frusta"}}},
+    {"seam_px", "px", maximum(0.5), "points on the edges of five walls of 1080 pixels, two eyes, 200 heads: as one wall shows them against the other, the farthest", {{"seam_px_of_mixed_eyes"}}},
+    {"blend_flatness_percent", "%", maximum(1.0), "two projectors of gamma 2.2 that overlap, four greys: light over 8 pixels against the even picture", {{"blend_flatness_percent_of_another_gamma"}}},
+    {"wall_cost_over_view", "", maximum(1.2), "paper city, five walls of 512x512 (256x256) over one view of as many pixels through each wall in turn, medians", {{"wall_cost_over_view_of_whole_views"}}},
+    {"walls_lock_frames", "frames", maximum(1.0), "four walls and an operator, five processes, 300 frames (60): the most that one is ahead of another", {{"walls_lock_frames_of_processes_by_themselves"}}},
+    {"wand_to_picture_ms", "ms", maximum(2.0), "from an OSC packet to the frusta of ten pictures, the slowest of 1,000 (100)", {{"wand_to_picture_ms_a_frame_later"}}},
     // reflections
     {"near_cost_ratio_rerendered_over_mem", "", minimum(10.0), "ten cars seen, one near, 1280x720; re-rendered maps at their best over the shipped method", {{"near_cost_ratio_rerendered_over_local"}}},
     {"near_flip_ratio_mem_over_rerendered", "", maximum(0.8), "the same views; FLIP over the baseline that is timed", {{"near_flip_ratio_none_over_rerendered"}}},

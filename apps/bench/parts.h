@@ -23,11 +23,13 @@ Measured measure_plan, measure_sketch, measure_plan_files;                    //
 Measured measure_plan_drawings;                                               // plan_drawings.cpp
 Measured measure_clicked_cameras;                                             // clicked_cameras.cpp
 Measured measure_study_replay, measure_study_kills, measure_study_cases, measure_study_xdf;  // study.cpp
-Measured measure_noise_cases, measure_noise_map;                                             // noise.cpp
-Measured measure_sound;                                                                      // sound.cpp
-Measured measure_vegetation;                                                                 // vegetation.cpp
-Measured measure_sceaux, measure_courtyard, measure_filling, measure_drawings;               // facades/
-Measured measure_reconstruction, measure_display, measure_maize, measure_distribution;       // trees/
+Measured measure_off_axis, measure_blending, measure_walls_cost, measure_walls_lock,
+    measure_wand;                                                                        // display.cpp
+Measured measure_noise_cases, measure_noise_map;                                         // noise.cpp
+Measured measure_sound;                                                                  // sound.cpp
+Measured measure_vegetation;                                                             // vegetation.cpp
+Measured measure_sceaux, measure_courtyard, measure_filling, measure_drawings;           // facades/
+Measured measure_reconstruction, measure_display, measure_maize, measure_distribution;   // trees/
 Measured measure_walking, measure_recorded_people, measure_shown_people, measure_jumps;  // crowd/crowd.cpp
 Measured measure_square, measure_levels;                                                 // crowd/square.cpp
 
