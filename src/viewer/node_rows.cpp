@@ -10,11 +10,6 @@ using scene::AttributeSchema, scene::AttributeType, scene::Node;
 
 constexpr std::size_t longest_quote = 40;
 
-std::string lower(std::string text) {
-  for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 std::string shortened(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   if (text.size() <= longest_quote) return text;
@@ -141,6 +136,11 @@ bool may_be_empty(const AttributeSchema& schema) {
 }
 
 }  // namespace
+
+std::string lower(std::string text) {
+  for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
 
 std::vector<NodeRow> node_rows(const scene::LiveScene& live, const std::set<const Node*>& open,
                                const std::string& filter) {

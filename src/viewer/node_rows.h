@@ -23,6 +23,9 @@ struct NodeRow {
   std::string says;         ///< the first that the script gives it: distinguishes unnamed nodes
 };
 
+/// The text with its ASCII letters in lower case.
+std::string lower(std::string text);
+
 /// The rows of the tree: children follow a node that is in `open`. With a `filter`: the nodes whose kind or
 /// name contains it (any case), and their ancestors.
 std::vector<NodeRow> node_rows(const scene::LiveScene& live, const std::set<const scene::Node*>& open,

@@ -9,6 +9,7 @@
 
 #include "base/colour.h"
 #include "planning/design/shape_models.h"
+#include "viewer/node_rows.h"
 
 namespace parvis::viewer {
 namespace {
@@ -29,11 +30,6 @@ enum Icon {
   redo_icon,
   save_icon
 };
-
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
 
 /// The value that all objects have in common; none: they differ.
 template <class Get>
