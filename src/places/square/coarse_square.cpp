@@ -32,7 +32,7 @@ Mesh front(const Building& h, float x0, float x1, float z0, float z1, float y = 
 
 void add_house(scene::Model& model, const Building& h, int number) {
   const std::string name = fmt::format("house_{}", number);
-  const float eaves = h.style.eaves_m() - 0.3f;
+  const float eaves = h.style.eaves_m() - 0.9f;  // there the cornice begins
   const bool is_arcade = h.style.ground == GroundFloor::arcade;
   add(model, name + "_front", front(h, 0.0f, h.width_m, is_arcade ? lintel_m : 0.0f, eaves));
   if (is_arcade) {
@@ -53,10 +53,18 @@ void add_house(scene::Model& model, const Building& h, int number) {
   if (h.has_right_front)
     add(model, name + "_right",
         synthesis::panel(f.point(h.width_m, 0, 0), h.depth_m * f.inward, {0, 0, eaves}, whole));
-  const float out = h.style.cornice_out_m, half = 0.5f * h.depth_m;
-  const glm::vec3 up = half * f.inward + out * f.inward + glm::vec3(0, 0, 0.44f * (half + out));
-  add(model, name + "_roof",
-      synthesis::panel(f.point(0, -out, h.style.eaves_m()), h.width_m * f.along, up, whole));
+  const float out = h.style.cornice_out_m, half = 0.5f * h.depth_m, top = h.style.eaves_m();
+  const auto cornice = [&](glm::vec3 from, glm::vec3 along, glm::vec3 outward) {
+    add(model, fmt::format("{}_cornice_{}", name, model.parts.size()),
+        synthesis::panel(from + glm::vec3(0, 0, eaves), along, out * outward + glm::vec3(0, 0, top - eaves),
+                         whole));
+  };
+  cornice(f.point(0, 0, 0), h.width_m * f.along, -f.inward);
+  if (h.has_left_front) cornice(f.point(0, h.depth_m, 0), -h.depth_m * f.inward, -f.along);
+  if (h.has_right_front) cornice(f.point(h.width_m, 0, 0), h.depth_m * f.inward, f.along);
+  const glm::vec3 up = (half + out) * f.inward + glm::vec3(0, 0, 0.44f * (half + out));
+  const float x0 = h.has_left_front ? -out : 0.0f, x1 = h.width_m + (h.has_right_front ? out : 0.0f);
+  add(model, name + "_roof", synthesis::panel(f.point(x0, -out, top), (x1 - x0) * f.along, up, whole));
 }
 
 }  // namespace
