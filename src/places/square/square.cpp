@@ -57,8 +57,9 @@ Status write_square(const fs::path& folder, std::uint64_t seed) {
       [=](const fs::path& to) { return scene::write_gltf(to / "coarse.glb", make_coarse_square(seed)); });
   jobs.push_back([](const fs::path& to) { return write_file(to / "photographs.xp", photographs_script()); });
   jobs.push_back([](const fs::path& to) { return write_file(to / "place.xp", place_script()); });
-  jobs.push_back(
-      [=](const fs::path& to) { return write_file(to / "square.xp", square_script(vehicle_files)); });
+  jobs.push_back([](const fs::path& to) { return write_file(to / "light.xp", light_script()); });
+  jobs.push_back([=](const fs::path& to) { return write_file(to / "life.xp", life_script(vehicle_files)); });
+  jobs.push_back([](const fs::path& to) { return write_file(to / "square.xp", square_script()); });
   return synthesis::write_together(jobs, folder);
 }
 

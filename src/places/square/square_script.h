@@ -6,10 +6,18 @@
 
 namespace parvis::square {
 
-/// The place itself, without anything that moves or may be changed: what its photographs are taken of.
+/// Sun, sky and air.
+std::string light_script();
+
+/// The light and the place itself, without anything that moves or may be changed: what its photographs are
+/// taken of.
 std::string place_script();
 
-/// The place in motion, with two designs, scenarios and views. `vehicle_files` are the models of the traffic.
-std::string square_script(std::span<const std::string> vehicle_files);
+/// Everything else, for the place or for what was captured of it: lamps, tram, traffic, people, sound,
+/// designs, scenarios and views. `vehicle_files` are the models of the traffic.
+std::string life_script(std::span<const std::string> vehicle_files);
+
+/// The place in motion, with its plane trees.
+std::string square_script();
 
 }  // namespace parvis::square
