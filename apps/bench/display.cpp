@@ -130,7 +130,7 @@ double unevenness_percent(double gamma, double blended_for) {
     Display room;
     for (const double from : {-2.0, -0.6}) {
       Wall wall;
-      wall.name = from < -1.0 ? "a" : "b", wall.pixels = {1300, 8};
+      wall.name.assign(1, from < -1.0 ? 'a' : 'b'), wall.pixels = {1300, 8};
       wall.lower_left = {from, 2.0, 0.0}, wall.lower_right = {from + 2.6, 2.0, 0.0},
       wall.upper_left = {from, 2.0, 1.0};
       room.walls.push_back(wall);

@@ -34,6 +34,14 @@ float ramp(float from_edge, float width) {
   return t < 0.5f ? 2.0f * t * t : 1.0f - 2.0f * (1.0f - t) * (1.0f - t);
 }
 
+// Eight steps between two values of 8 bits, by a pattern that is even along rows: else dark overlaps show the
+// rounding of both projectors.
+float dither(uvec2 pixel) {
+  uint k = (pixel.x + 3u * pixel.y) & 7u;
+  k = (k & 1u) << 2 | (k & 2u) | k >> 2;
+  return ((float(k) + 0.5f) / 8.0f - 0.5f) / 255.0f;
+}
+
 void main() {
   vec3 left = textureLod(left_picture, place_in(left_from_room), 0.0f).rgb;
   vec3 shown = left;
@@ -52,6 +60,6 @@ void main() {
   }
   float share = ramp(wall_share.x, overlap.x) * ramp(1.0f - wall_share.x, overlap.y) *
                 ramp(wall_share.y, overlap.z) * ramp(1.0f - wall_share.y, overlap.w);
-  if (share < 1.0f) shown = value_of(share * light_of(shown));
+  if (share < 1.0f) shown = value_of(share * light_of(shown)) + dither(uvec2(gl_FragCoord.xy));
   colour = vec4(shown, 1.0f);
 }
