@@ -145,7 +145,7 @@ void MultipleEnvironmentMaps::choose_details(const render::Renderer& renderer,
     details_[std::size_t(reflectors[i].object)] = int(wishes_[i].level);
 }
 
-/// A window renews its maps one per frame; a picture shows none that is out of date.
+/// A window renews its maps a few faces per frame; a picture shows none that is out of date.
 void MultipleEnvironmentMaps::forget_surroundings() {
   baked_.reset();
   if (prefers_rate_)
@@ -253,9 +253,9 @@ void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scen
   bodies_.follow_objects(scene);
   if (!reflectors.empty()) bodies_.update(scene, reflectors);
   find_missing_maps(renderer, reflectors);
-  if (std::exchange(renews_one_, false) &&
-      renewal_.renew_one(renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre))
-    faces_drawn_ += 6;
+  if (std::exchange(renews_one_, false))
+    faces_drawn_ += renewal_.renew_faces(
+        renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre, faces_per_frame_);
   choose_details(renderer, reflectors);
   if (reflectors.empty()) return;
   picture_.draw_rays(renderer, with_smooth_outlines(reflectors));

@@ -107,8 +107,10 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   int top_level_;
   MapTable table_;
   std::vector<std::size_t> wanted_;  ///< maps that the last frame's eyes looked into and that have no layer
-  bool renews_one_ = false;          ///< no eye of this frame has renewed a map yet
-  bool prefers_rate_ = false;        ///< draws at most one missing map per frame
+  bool renews_one_ = false;          ///< no eye of this frame has renewed faces of maps yet
+  /// A face takes a software renderer a twentieth of a second.
+  int faces_per_frame_ = gl::is_software() ? 1 : methods::cube_faces;
+  bool prefers_rate_ = false;  ///< draws at most one missing map per frame
   gl::Texture heights_;
   gl::UniformBlock<map_block::MapLayout> layout_{"MapLayout", methods::first_method_block + 1};
 };

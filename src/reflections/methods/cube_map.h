@@ -8,6 +8,7 @@
 namespace parvis::methods {
 
 inline constexpr float cube_near_m = 0.02f, cube_far_m = 4000.0f;
+inline constexpr int cube_faces = 6;
 
 /// Colour texture with mipmaps, and a depth buffer shared by the faces.
 class CubeMap {

@@ -35,14 +35,17 @@ void MapPainter::paint_layer(const gl::Program& program, GLuint source, GLuint t
 }
 
 void MapPainter::paint(render::Renderer& renderer, ReferenceMaps& maps, std::size_t map) {
+  for (int face = 0; face < methods::cube_faces; ++face) paint_face(renderer, maps, map, face);
+}
+
+void MapPainter::paint_face(render::Renderer& renderer, ReferenceMaps& maps, std::size_t map, int face) {
   const glm::vec3 place = maps.places()[map];
   const glm::ivec2 size(maps.resolution());
-  for (int face = 0; face < 6; ++face) {
-    cube_.draw_face(renderer, face, place, -1, render::Subjects::fixed);
-    const glm::mat4 clip_from_world = methods::face_view(face, place, cube_.resolution(), 0).clip_from_world;
-    distance_.set("clip_from_direction", glm::translate(clip_from_world, place));
-    paint_layer(distance_, cube_.depth_texture(), maps.distances(), size, map);
-  }
+  cube_.draw_face(renderer, face, place, -1, render::Subjects::fixed);
+  const glm::mat4 clip_from_world = methods::face_view(face, place, cube_.resolution(), 0).clip_from_world;
+  distance_.set("clip_from_direction", glm::translate(clip_from_world, place));
+  paint_layer(distance_, cube_.depth_texture(), maps.distances(), size, map);
+  if (face + 1 < methods::cube_faces) return;
   cube_.update_levels();
   paint_layer(colour_, cube_.texture(), maps.colours(), size, map);
   paint_layer(gloss_, cube_.texture(), maps.glosses(), ReferenceMaps::gloss_size(), map);

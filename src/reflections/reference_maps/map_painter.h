@@ -16,6 +16,8 @@ class MapPainter {
   /// Draws one of `maps`, without its coarser levels; takes some tenths of a second in a city. The light is
   /// that of the renderer's frame.
   void paint(render::Renderer& renderer, ReferenceMaps& maps, std::size_t map);
+  /// The same in six steps, `face` from 0 to 5: nothing else may be painted between them.
+  void paint_face(render::Renderer& renderer, ReferenceMaps& maps, std::size_t map, int face);
 
  private:
   MapPainter(gl::Program distance, gl::Program colour, gl::Program gloss, int drawn_resolution);

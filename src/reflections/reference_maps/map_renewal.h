@@ -17,15 +17,15 @@ class MapRenewal {
   static Result<MapRenewal> create(int face_resolution);
 
   /// Marks all of so many maps as out of date.
-  void ask(std::size_t map_count) { is_old_.assign(map_count, true); }
+  void ask(std::size_t map_count);
   /// Marks, of so many maps, those of these numbers as out of date.
   void ask(std::size_t map_count, std::span<const std::size_t> maps);
   bool is_done() const;
-  /// Draws a map that is out of date, the one nearest to `looked_from`, in the light of the renderer's frame.
-  /// Returns its number; none is old: nothing.
-  std::optional<std::size_t> renew_one(render::Renderer& renderer, ReferenceMaps& maps,
-                                       glm::vec3 looked_from);
-  /// The same for one map, whether it is out of date or not.
+  /// Draws at most so many faces of maps that are out of date, in the light of the renderer's frame: those of
+  /// the map that is begun, then of the one nearest to `looked_from`. Maps with all faces are replaced.
+  /// Returns how many it has drawn.
+  int renew_faces(render::Renderer& renderer, ReferenceMaps& maps, glm::vec3 looked_from, int max_faces);
+  /// Draws one whole map, whether it is out of date or not.
   void renew(render::Renderer& renderer, ReferenceMaps& maps, std::size_t map);
   /// The map that was drawn last, alone and not compressed.
   const ReferenceMaps& drawn_last() const { return fresh_; }
@@ -34,9 +34,15 @@ class MapRenewal {
   MapRenewal(MapPainter painter, ReferenceMaps fresh)
       : painter_(std::move(painter)), fresh_(std::move(fresh)) {}
 
+  /// Takes over the drawn map.
+  void replace(ReferenceMaps& maps, std::size_t map, bool stays_old);
+
   MapPainter painter_;
   ReferenceMaps fresh_;  ///< one map, from which the others are copied
   std::vector<bool> is_old_;
+  std::optional<std::size_t> begun_;  ///< a map with faces in `fresh_`
+  int face_ = 0;                      ///< its next one
+  bool is_late_ = false;              ///< it was asked for again since its first face
 };
 
 }  // namespace parvis::reference_maps
