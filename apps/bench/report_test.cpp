@@ -63,7 +63,8 @@ TEST(Keys, AreNamedOnceAndTheirControlsAreNoKeys) {
     for (const std::string_view control : key.controls) {
       if (control.empty()) continue;
       EXPECT_EQ(key_named(control), nullptr) << control;
-      EXPECT_NE(key.target.kind, Target::Kind::none) << key.name;
+      const bool finds_target_as_it_runs = key.shows.find("target: ") != std::string_view::npos;
+      EXPECT_TRUE(finds_target_as_it_runs || key.target.kind != Target::Kind::none) << key.name;
     }
   }
 }
