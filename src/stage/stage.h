@@ -96,8 +96,8 @@ class Stage {
   /// Keeps frames within the budget of the held rate and the scene's, whichever is less, through the
   /// resolution of the picture and, for the scene's or where the resolution is at its lowest, the levels of
   /// detail of reflections. By measured times
-  /// of the passes; on a software renderer, whose passes tell nothing, by `frame_ms`: what the last frame
-  /// took by the clock, all of it. For windows: the result depends on the machine.
+  /// of the passes; on a software renderer, which times the passes of few frames, by `frame_ms`: what the
+  /// last frame took by the clock, all of it. For windows: the result depends on the machine.
   void follow_clock(double frame_ms);
   /// The fraction of the last frame's displayed pixels that was drawn.
   double drawn_share() const;

@@ -30,7 +30,7 @@ inline constexpr std::array stereo_names{"none",       "quad_buffer",  "side_by_
 /// The kind of that name; nothing: there is none.
 std::optional<Stereo> stereo_named(const std::string& name);
 
-/// Whose picture is shown; a wall may show one eye alone (two projectors with polarising filters).
+/// The eye whose picture is shown; a wall may show one eye alone (two projectors with polarising filters).
 enum class Eye : unsigned char { both, left, right };
 
 /// A corner of the triangles that show a wall.

@@ -49,7 +49,7 @@ void add_surround(ReliefMesh& mesh, const Opening& o) {
   mesh.box(Surface::plaster, {o.x0 - w - 0.06f, -0.15f, o.z0 - 0.13f}, {o.x1 + w + 0.06f, 0, o.z0});
 }
 
-/// A moulding above a window: a shelf, and a pediment on it.
+/// A moulding above a window: a ledge, and a pediment on it.
 void add_hood(ReliefMesh& mesh, const Opening& o, bool has_pediment, bool is_round) {
   const float x0 = o.x0 - surround_m - 0.14f, x1 = o.x1 + surround_m + 0.14f, z = o.z1 + surround_m + 0.1f;
   const glm::vec2 profile[] = {{0.0f, 0.0f},   {0.07f, 0.02f}, {0.1f, 0.1f},

@@ -15,7 +15,7 @@ scene::Model make_square(std::uint64_t seed);
 
 /// Writes the scripts `place.xp` (static geometry), `life.xp` (the rest), `square.xp` (all of it) and
 /// `photographs.xp` (cameras to capture it from), models, textures, the sky and a coarse model into `folder`,
-/// as write_paper_city does.
+/// each file complete or not at all. Errors: what cannot be written.
 Status write_square(const std::filesystem::path& folder, std::uint64_t seed);
 
 }  // namespace parvis::square

@@ -42,8 +42,8 @@ class InputState {
   /// nothing is changed then.
   Status take(const sound::OscMessage& message, const std::string& sender, double now_s);
 
-  /// Where a tracker is; nothing: it has never said. One that has stopped stays where it was, and comes back
-  /// by a smooth way when it goes on.
+  /// Where a tracker is; nothing: it has never said. One that has stopped stays where it was, and returns
+  /// smoothly when it sends again.
   std::optional<Pose> pose(const std::string& tracker, double now_s);
   /// Events of buttons since the last call.
   std::vector<ButtonEvent> take_buttons() { return std::exchange(buttons_, {}); }
