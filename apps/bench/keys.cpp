@@ -234,6 +234,8 @@ constexpr Key keys[]{
     {"frame_ms_without_people", "ms", {}, "paper city, street, 1280x720"},
     {"frame_ratio_with_200_people", "", maximum(1.25), "the same view; 200 people within 90 m of the crossing", {{"frame_ratio_with_4000_people"}}},
     {"people_draw_ms_10000", "ms", maximum(25.0), "the same view with 10,000 people within 400 m, less that without"},
+    {"people_pixels_10000", "px", minimum(2000.0), "the same view: pixels that differ from the moment without them"},
+    {"people_pixels_200", "px", minimum(2000.0), "the same with 200 people"},
     {"scrub_identical", "", minimum(1.0), "places and meshes at second 600 (quick 20): in one jump and by steps of 0.25 s", {{"scrub_identical_a_second_later"}}},
     // vegetation
     {"vegetation_fps_200_trees_1m_triangles", "fps", minimum(10.0), "the slowest view, 640x360, a sun that moves", {{"vegetation_fps_real_geometry_control"}}},

@@ -137,6 +137,23 @@ stage::Simulation city_with_people(const BenchSetup& setup, int people, float ra
   return setup.simulation(script);
 }
 
+/// Pixels of the street that differ from the same moment without people.
+double people_pixels(stage::Stage& stage, int width, int height) {
+  const Camera camera = must(stage.camera("street"));
+  const auto picture = [&](bool has_people) {
+    stage.simulation().scene.data<crowd::CrowdDemand>().is_visible = has_people;
+    stage.simulation().advance(0.0);
+    stage.draw(camera, width, height);
+    return stage.picture();
+  };
+  const Image8 with = picture(true), without = picture(false);
+  constexpr int visible = 6;  // of 255
+  int count = 0;
+  for (std::size_t i = 0; i < with.pixels.size(); i += std::size_t(with.channels))
+    count += std::abs(int(with.pixels[i]) - int(without.pixels[i])) > visible ? 1 : 0;
+  return double(count);
+}
+
 std::uint64_t places_of(const scene::Scene& scene) {
   ContentHash hash;
   for (const scene::Object& object : scene.objects) {
@@ -165,7 +182,9 @@ void measure_walking(const BenchSetup& setup, Report& report) {
       if (std::ranges::count(quick_tests, test["id"].get<int>()) > 0 || test["id"] == 4)
         few["tests"].push_back(test);
     const std::map<int, TestResult> broken = run_rimea(few, heedless());
-    report.add("rimea_tests_passed_heedless", 15 - int(broken.size()) + passed(broken));
+    std::map<int, TestResult> mixed = results;  // the others as they are
+    for (const auto& [id, result] : broken) mixed[id] = result;
+    report.add("rimea_tests_passed_heedless", passed(mixed));
   }
   const float seconds = setup.is_quick ? 30.0f : 120.0f;
   const std::vector<DensityPoint> points = speed_density({}, seconds);
@@ -221,6 +240,8 @@ void measure_shown_people(const BenchSetup& setup, Report& report) {
   std::vector<double> thronged;
   for (int i = 0; i < 4; ++i)
     if (const double ms = frame(*throng); i > 0) thronged.push_back(ms);
+  report.add("people_pixels_10000", people_pixels(*throng, width, height));
+  report.add("people_pixels_200", people_pixels(*some, width, height));
   report.add("people_draw_ms_10000", median(thronged).value - median(without).value);
   report.add("frame_ms_without_people", median(without));
   report.add("frame_ratio_with_200_people", ratio_in_turn(with, without));

@@ -208,6 +208,9 @@ double switch_flip(const BenchSetup& setup, float apart_m) {
                            return object.is_visible && object.name == crowd::person_name(0);
                          })->world_from_model[3]);
   Camera camera = must(stage->camera("eye"));
+  const auto level = [&] {
+    return stage->simulation().clock.find<crowd::CrowdProcess>()->generated()->level(0);
+  };
   const auto picture = [&](float distance_m) {
     const glm::vec3 chest = person + glm::vec3(0.0f, 0.0f, 1.2f);
     camera.world_from_camera = look_at(chest + glm::vec3(distance_m, 0.0f, 0.0f), chest);
@@ -217,7 +220,10 @@ double switch_flip(const BenchSetup& setup, float apart_m) {
   double worst = 0.0;
   for (const float reach_m : {5.0f, 14.0f, 30.0f}) {
     picture(1.3f * reach_m);  // the coarser level
-    const Image8 far = picture(reach_m + 0.5f * apart_m), near = picture(reach_m - 0.5f * apart_m);
+    const Image8 far = picture(reach_m + 0.5f * apart_m);
+    const people::Detail coarser = level();
+    const Image8 near = picture(reach_m - 0.5f * apart_m);
+    if (level() == coarser) fail("the level of detail does not change at {} m", reach_m);
     Image8 mask(far.width, far.height, 1);
     const float focal_px = 360.0f / std::tan(glm::radians(27.5f));
     const int half_w = int(0.45f / reach_m * focal_px), half_h = int(1.2f / reach_m * focal_px);
@@ -245,9 +251,10 @@ void measure_square(const BenchSetup& setup, Report& report) {
   report.add("blocked_crossings", double(seen.on_crossings.count()));
   report.add("red_light_crossings", double(seen.at_red));
   stage::Simulation unheeded = square(setup);
-  unheeded.scene.data<scene::SharedStreets>().now->has_people = false;
-  unheeded.clock.find<traffic::TrafficProcess>()->traffic().simulation().heeds_signals = false;
-  unheeded.clock.find<crowd::CrowdProcess>()->heeds_lights = false;
+  traffic::Simulation& drivers = unheeded.clock.find<traffic::TrafficProcess>()->traffic().simulation();
+  drivers.heeds_signals = drivers.heeds_crossings = false;
+  auto* walkers = unheeded.clock.find<crowd::CrowdProcess>();
+  walkers->heeds_lights = walkers->heeds_vehicles = false;
   const Seen without = watch(unheeded, std::max(seconds / 10.0f, 60.0f));
   report.add("red_light_crossings_unheeded", double(without.at_red));
   report.add("people_in_vehicles_paths_unheeded", double(without.in_paths.count()));

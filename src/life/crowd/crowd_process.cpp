@@ -230,8 +230,9 @@ void CrowdProcess::cross_streets() {
                                        crossing.contains(here + pushed_on_s * walkers.velocity[p]));
       const bool is_red = heeds_lights && streets_->lights[c] == scene::WalkLight::wait;
       if (is_on || (steps_on && !is_red)) streets_->people[c] = 1;
-      if (steps_on && (is_red || streets_->taken[c] != 0)) crowd_->hold(p, true);
+      if (steps_on && (is_red || (heeds_vehicles && streets_->taken[c] != 0))) crowd_->hold(p, true);
     }
+    if (!heeds_vehicles) continue;
     const glm::vec2 next = here + step_ahead_m * crowd_->direction(p);
     const glm::vec2 carried_to = here + carried_s * walkers.velocity[p];
     const auto is_entered = [&](const scene::StreetCrossing& strip) {
@@ -246,7 +247,7 @@ void CrowdProcess::stay_at_kerbs(const std::vector<glm::vec2>& before) {
   if (!streets_) return;
   for (std::size_t c = 0; c < streets_->crossings.size(); ++c) {
     const bool is_red = heeds_lights && streets_->lights[c] == scene::WalkLight::wait;
-    if (!is_red && streets_->taken[c] == 0) continue;
+    if (!is_red && (!heeds_vehicles || streets_->taken[c] == 0)) continue;
     for (std::size_t p = 0; p < crowd_->size(); ++p)
       if (streets_->crossings[c].contains(crowd_->walkers().position[p]) &&
           !streets_->crossings[c].contains(before[p]) && !crowd_->people()[p].is_away)
@@ -269,7 +270,8 @@ void CrowdProcess::walk() {
   follow_presence();
   cross_streets();
   const std::vector<glm::vec2> before = crowd_->walkers().position;
-  crowd_->step(crowd_step_s, vehicles_);
+  crowd_->step(crowd_step_s,
+               heeds_vehicles ? std::span<const MovingBody>(vehicles_) : std::span<const MovingBody>());
   stay_at_kerbs(before);
   const Walkers& walkers = crowd_->walkers();
   for (std::size_t p = 0; p < shown_.size(); ++p) {

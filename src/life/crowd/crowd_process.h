@@ -39,6 +39,8 @@ class CrowdProcess final : public action::Process {
   const Crowd* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
   /// False: people cross at red, too, which benches compare with.
   bool heeds_lights = true;
+  /// False: people walk as if no vehicles and trams were there, which benches compare with.
+  bool heeds_vehicles = true;
   /// The scene's streets as people see them; null where there is no traffic.
   const scene::StreetTraffic* streets() const { return streets_.get(); }
   /// Who rides trams; nothing where there are no stops.

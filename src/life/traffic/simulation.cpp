@@ -365,7 +365,8 @@ void Simulation::step() {
     Obstacle obstacle = obstacle_ahead(i);
     heed_signals(i, obstacle);
     if (streets_) heed_rails(i, obstacle);
-    if (streets_ && (streets_->has_people || !signals_.empty())) heed_crossings(i, obstacle);
+    if (streets_ && heeds_crossings && (streets_->has_people || !signals_.empty()))
+      heed_crossings(i, obstacle);
     const float wish = free_acceleration(driver_, vehicle.speed, wanted_speed(vehicle)) -
                        interaction(driver_, vehicle.speed, obstacle.gap_m - touching_m, obstacle.speed);
     vehicle.acceleration = std::max(wish, -hardest_braking);

@@ -36,6 +36,8 @@ class Simulation {
   void share(scene::StreetTraffic& streets);
   /// False: vehicles drive as if all lights were green.
   bool heeds_signals = true;
+  /// False: they drive and stand on crossings as if nobody walked there.
+  bool heeds_crossings = true;
 
   /// Lanes of the road graph after streets are cut.
   const std::vector<DrivingLane>& lanes() const { return lanes_; }
