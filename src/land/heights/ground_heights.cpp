@@ -160,14 +160,14 @@ float GroundHeights::at(glm::vec2 point, float fallback) const {
 float GroundHeights::beside_lane(glm::vec2 point, float lane_m) const {
   const glm::vec2 place = (point - heights_m_.origin) / heights_m_.cell_m - 0.5f;
   const glm::ivec2 first(glm::floor(place));
-  const glm::vec2 share = place - glm::floor(place);
+  const glm::vec2 fraction = place - glm::floor(place);
   float sum = 0.0f, weights = 0.0f;
   for (int k = 0; k < 4; ++k) {
     const glm::ivec2 cell = first + glm::ivec2(k % 2, k / 2);
     if (!heights_m_.contains(cell.x, cell.y)) continue;
     const float height_m = heights_m_.at(cell.x, cell.y);
     if (!(std::abs(height_m - lane_m) < ground_reach_m)) continue;  // unknown, or of another lane
-    const float weight = (k % 2 ? share.x : 1.0f - share.x) * (k / 2 ? share.y : 1.0f - share.y);
+    const float weight = (k % 2 ? fraction.x : 1.0f - fraction.x) * (k / 2 ? fraction.y : 1.0f - fraction.y);
     sum += weight * height_m, weights += weight;
   }
   return weights > 1e-3f ? sum / weights : lane_m;

@@ -30,9 +30,9 @@ struct Corner {
 };
 using Polygon = std::vector<Corner>;
 
-Corner mix(const Corner& a, const Corner& b, float share) {
-  return {glm::mix(a.position, b.position, share), glm::mix(a.world, b.world, share),
-          glm::mix(a.normal, b.normal, share), glm::mix(a.uv, b.uv, share)};
+Corner mix(const Corner& a, const Corner& b, float weight) {
+  return {glm::mix(a.position, b.position, weight), glm::mix(a.world, b.world, weight),
+          glm::mix(a.normal, b.normal, weight), glm::mix(a.uv, b.uv, weight)};
 }
 
 /// A triangle of a floor or a ceiling, counter-clockwise in plan.

@@ -56,9 +56,9 @@ bool AsphaltCover::is_over(std::uint32_t own, glm::vec3 point) const {
     const float at_m = glm::dot(away, along) / length_m;
     if ((piece.is_first && at_m < margin_around_m) || (piece.is_last && at_m > length_m - margin_around_m))
       return false;
-    const float share = glm::clamp(at_m / length_m, 0.0f, 1.0f);
-    return glm::distance(away, share * along) <= piece.half_m &&
-           std::abs(glm::mix(piece.from.z, piece.to.z, share) - point.z) < level_m;
+    const float fraction = glm::clamp(at_m / length_m, 0.0f, 1.0f);
+    return glm::distance(away, fraction * along) <= piece.half_m &&
+           std::abs(glm::mix(piece.from.z, piece.to.z, fraction) - point.z) < level_m;
   });
 }
 

@@ -97,9 +97,9 @@ const std::vector<std::uint32_t>* Earthworks::near(glm::vec2 point) const {
 Earthworks::Nearest Earthworks::nearest_on(const Piece& piece, glm::vec2 point) {
   const glm::vec2 along = glm::vec2(piece.b - piece.a), away = point - glm::vec2(piece.a);
   const float square = glm::dot(along, along);
-  const float share = square > 0.0f ? std::clamp(glm::dot(away, along) / square, 0.0f, 1.0f) : 0.0f;
-  return {glm::distance(away, share * along), glm::mix(piece.half_at_a_m, piece.half_at_b_m, share),
-          glm::mix(piece.a.z, piece.b.z, share), piece.kind};
+  const float fraction = square > 0.0f ? std::clamp(glm::dot(away, along) / square, 0.0f, 1.0f) : 0.0f;
+  return {glm::distance(away, fraction * along), glm::mix(piece.half_at_a_m, piece.half_at_b_m, fraction),
+          glm::mix(piece.a.z, piece.b.z, fraction), piece.kind};
 }
 
 float Earthworks::at(glm::vec2 point, float bare_m) const {

@@ -15,8 +15,8 @@ constexpr float max_aside = 0.3f;  // lane widths off the expected place
 bool passes_against(const Lane& lane, std::size_t segment, glm::vec2 place, glm::vec2 direction,
                     float reach_m) {
   const glm::vec2 a(lane.points[segment]), along = glm::vec2(lane.points[segment + 1]) - a;
-  const float share = std::clamp(glm::dot(place - a, along) / glm::dot(along, along), 0.0f, 1.0f);
-  return glm::distance(a + share * along, place) < reach_m && glm::dot(along, direction) < 0.0f;
+  const float fraction = std::clamp(glm::dot(place - a, along) / glm::dot(along, along), 0.0f, 1.0f);
+  return glm::distance(a + fraction * along, place) < reach_m && glm::dot(along, direction) < 0.0f;
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ bool has_opposite(const RoadGraph& roads, const Lane& lane) {
     if (other.crossing >= 0 || &other == &lane) return false;
     for (std::size_t i = 0; i + 1 < other.points.size(); ++i) {
       const glm::vec2 a(other.points[i]), along = glm::vec2(other.points[i + 1]) - a;
-      const float share = std::clamp(glm::dot(expected - a, along) / glm::dot(along, along), 0.0f, 1.0f);
-      if (glm::distance(a + share * along, expected) < 0.3f * lane.width_m &&
+      const float fraction = std::clamp(glm::dot(expected - a, along) / glm::dot(along, along), 0.0f, 1.0f);
+      if (glm::distance(a + fraction * along, expected) < 0.3f * lane.width_m &&
           glm::dot(along, glm::vec2(direction)) < 0.0f)
         return true;
     }

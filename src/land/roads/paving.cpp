@@ -111,8 +111,9 @@ using Row = std::vector<glm::vec3>;
 bool lies_between(const Row& row, const Row& before, const Row& after) {
   for (std::size_t k = 0; k < row.size(); ++k) {
     const glm::vec3 chord = after[k] - before[k];
-    const float share = glm::clamp(glm::dot(row[k] - before[k], chord) / glm::dot(chord, chord), 0.0f, 1.0f);
-    const glm::vec3 off = row[k] - (before[k] + share * chord);
+    const float fraction =
+        glm::clamp(glm::dot(row[k] - before[k], chord) / glm::dot(chord, chord), 0.0f, 1.0f);
+    const glm::vec3 off = row[k] - (before[k] + fraction * chord);
     if (!(glm::length(glm::vec2(off)) < chord_m && std::abs(off.z) < chord_rise_m)) return false;
   }
   return true;

@@ -18,7 +18,7 @@ constexpr float widest_loop_m = 4.5f,
 constexpr float longest_cut_m = 60.0f;     // back from a crossing, however acute the angle
 constexpr float longest_corner_m = 12.0f;  // of it, for rounding the kerb
 constexpr float shortest_cut_m = 1.5f;
-constexpr float max_street_share = 0.8f;        // that its two crossings may take
+constexpr float max_street_fraction = 0.8f;     // that its two crossings may take
 constexpr float straight_on = 0.785f;           // radians: turns up to 45 degrees are no turns
 constexpr float arc_step = glm::radians(6.0f);  // of a loop's points
 
@@ -87,7 +87,7 @@ void cut_back(std::vector<Arm>& arms, const RoadNetwork& network) {
     }
   // Arms come in pairs, a street's start and its end: where they want more than there is, they share it.
   for (std::size_t i = 0; i < arms.size(); i += 2) {
-    const float room_m = max_street_share * network.streets[i / 2].path.length();
+    const float room_m = max_street_fraction * network.streets[i / 2].path.length();
     const float wanted_m = arms[i].cut_m + arms[i + 1].cut_m;
     if (wanted_m <= room_m) continue;
     arms[i].cut_m *= room_m / wanted_m;

@@ -135,9 +135,9 @@ void simplify(const Path& path, std::size_t first, std::size_t last, Path& resul
   const glm::vec3 chord = path[last] - path[first];
   for (std::size_t i = first + 1; i < last; ++i) {
     const glm::vec3 away = path[i] - path[first];
-    const float share =
+    const float fraction =
         std::clamp(glm::dot(away, chord) / std::max(glm::dot(chord, chord), 1e-12f), 0.0f, 1.0f);
-    const float distance = glm::length(away - share * chord);
+    const float distance = glm::length(away - fraction * chord);
     if (distance > largest) largest = distance, furthest = i;
   }
   if (furthest == first) return result.push_back(path[last]);

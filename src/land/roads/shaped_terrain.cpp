@@ -67,11 +67,11 @@ class Shaping {
   std::uint32_t add_between(std::span<const std::uint32_t> corners) {
     glm::vec3 point(0.0f), position(0.0f), normal(0.0f);
     glm::vec2 uv(0.0f);
-    const float share = 1.0f / float(corners.size());
+    const float weight = 1.0f / float(corners.size());
     for (const std::uint32_t corner : corners) {
-      point += share * bare_[corner], position += share * result_.positions[corner];
+      point += weight * bare_[corner], position += weight * result_.positions[corner];
       normal += result_.normals[corner];
-      if (!result_.uvs.empty()) uv += share * result_.uvs[corner];
+      if (!result_.uvs.empty()) uv += weight * result_.uvs[corner];
     }
     result_.positions.push_back(position);
     result_.normals.push_back(glm::length(normal) > 0.0f ? glm::normalize(normal)
@@ -82,12 +82,12 @@ class Shaping {
     return add_bare(point);
   }
 
-  /// How far the works are off a plane surface at a place in it, whose corners have these shares.
-  float error_m(std::span<const std::uint32_t> corners, std::span<const float> shares) const {
+  /// How far the works are off a plane surface at a place in it, whose corners have these weights.
+  float error_m(std::span<const std::uint32_t> corners, std::span<const float> weights) const {
     glm::vec3 point(0.0f);
     float height_m = 0.0f;
     for (std::size_t i = 0; i < corners.size(); ++i)
-      point += shares[i] * bare_[corners[i]], height_m += shares[i] * shaped_m_[corners[i]];
+      point += weights[i] * bare_[corners[i]], height_m += weights[i] * shaped_m_[corners[i]];
     return std::abs(works_.at(glm::vec2(point), point.z) - height_m);
   }
 
@@ -99,8 +99,8 @@ class Shaping {
     if (order(bare_[b]) < order(bare_[a])) std::swap(a, b);
     const int steps = std::clamp(int(std::ceil(length_m / edge_step_m)), 2, max_edge_steps);
     for (int k = 1; k < steps; ++k) {
-      const float share = float(k) / float(steps);
-      if (error_m(std::array{a, b}, std::array{1.0f - share, share}) > surface_tolerance_m) return true;
+      const float fraction = float(k) / float(steps);
+      if (error_m(std::array{a, b}, std::array{1.0f - fraction, fraction}) > surface_tolerance_m) return true;
     }
     return false;
   }

@@ -12,14 +12,14 @@
 namespace parvis::car_bodies {
 namespace {
 
-constexpr float whole_share = 0.8f;     // of the outer area, from which on all of it is a pane or a lamp
-constexpr float max_part_share = 0.6f;  // of the car's outer area that anything but paint may have
-constexpr float max_lamp_share = 0.15f;
-constexpr float min_outer_share = 0.05f;   // of its own area: what shows less lies inside
-constexpr float min_outer_m2 = 0.02f;      // of a part that is looked at on its own
-constexpr float min_pane_height = 0.45f;   // mean height of panes, as a share of the car's
-constexpr float min_lamp_forward = 0.25f;  // mean distance of lamps from the middle, over the car's length
-constexpr float paint_tolerance = 0.13f, min_paint_share = 0.2f, min_painted_share = 0.25f;
+constexpr float whole_fraction = 0.8f;     // of the outer area, from which on all of it is a pane or a lamp
+constexpr float max_part_fraction = 0.6f;  // of the car's outer area that anything but paint may have
+constexpr float max_lamp_fraction = 0.15f;
+constexpr float min_outer_fraction = 0.05f;  // of its own area: what shows less lies inside
+constexpr float min_outer_m2 = 0.02f;        // of a part that is looked at on its own
+constexpr float min_pane_height = 0.45f;     // mean height of panes, as a fraction of the car's
+constexpr float min_lamp_forward = 0.25f;    // mean distance of lamps from the middle, over the car's length
+constexpr float paint_tolerance = 0.13f, min_paint_fraction = 0.2f, min_painted_fraction = 0.25f;
 
 /// Words in the names of materials and objects, in lower case, in several languages.
 constexpr std::string_view lamp_words[] = {"lamp", "light", "scheinwerfer", "phare", "blinker", "indicator"};
@@ -51,7 +51,7 @@ struct Areas {
   float all = 0.0f, outer = 0.0f;
   float panes = 0.0f, lamps = 0.0f, painted = 0.0f;  // of the outer one
   float height = 0.0f, off_middle = 0.0f;            // of all
-  float panes_top = 0.0f;                            // share of the car's height
+  float panes_top = 0.0f;                            // fraction of the car's height
 
   void add(const SurfaceSample& sample, glm::vec3 paint) {
     const float m2 = sample.area_m2;
@@ -75,8 +75,8 @@ std::optional<Finish> finish_shown(const std::optional<Finish>& named, bool sees
                                    float outer_m2) {
   const float height = of.all > 0.0f ? of.height / of.all : 0.0f;
   const bool is_at_end = of.all > 0.0f && of.off_middle / of.all > min_lamp_forward;
-  const bool is_small = of.outer < max_lamp_share * outer_m2;
-  if (of.outer > max_part_share * outer_m2) return std::nullopt;
+  const bool is_small = of.outer < max_lamp_fraction * outer_m2;
+  if (of.outer > max_part_fraction * outer_m2) return std::nullopt;
   if (named == Finish::lamp && is_small && is_at_end) return Finish::lamp;
   if (named == Finish::glass || sees_through) {
     if (height >= min_pane_height) return Finish::glass;
@@ -84,9 +84,9 @@ std::optional<Finish> finish_shown(const std::optional<Finish>& named, bool sees
     return std::nullopt;
   }
   if (named == Finish::chrome || named == Finish::rubber || named == Finish::plastic) return named;
-  const bool is_pane_alone = of.panes >= whole_share * of.outer && of.outer > 0.0f;
+  const bool is_pane_alone = of.panes >= whole_fraction * of.outer && of.outer > 0.0f;
   if (is_pane_alone && reaches_roof(of.panes_top)) return Finish::glass;
-  if (of.lamps >= whole_share * of.outer && of.outer > 0.0f) return Finish::lamp;
+  if (of.lamps >= whole_fraction * of.outer && of.outer > 0.0f) return Finish::lamp;
   return std::nullopt;
 }
 
@@ -165,7 +165,7 @@ class Sorter {
     const bool sees_through = lets_light_through(material);
     const std::optional<Finish> named = finish_named(material.name);
     if (const auto finish = finish_shown(named, sees_through, of_material, outer_m2_)) return *finish;
-    if (of_material.outer < min_outer_share * of_material.all) return Finish::as_in_file;
+    if (of_material.outer < min_outer_fraction * of_material.all) return Finish::as_in_file;
     const std::string& node = model_.nodes[std::size_t(model_.parts[part].node)].name;
     std::optional<Finish> part_named = finish_named(model_.parts[part].object);
     if (!part_named) part_named = finish_named(node);
@@ -173,8 +173,8 @@ class Sorter {
     if (of_part.outer >= min_outer_m2)
       if (const auto finish = finish_shown(part_named, sees_through, of_part, outer_m2_)) return *finish;
     const bool is_painted = named == Finish::paint ||
-                            of_material.painted >= min_paint_share * of_material.outer ||
-                            of_material.outer >= min_painted_share * largest_m2_;
+                            of_material.painted >= min_paint_fraction * of_material.outer ||
+                            of_material.outer >= min_painted_fraction * largest_m2_;
     return is_painted ? Finish::paint : Finish::as_in_file;
   }
 

@@ -42,14 +42,14 @@ class Cells {
     for (std::size_t part = 0; part < body.model().parts.size(); ++part)
       for (std::size_t i = 0; i < body.model().parts[part].mesh.triangle_count(); ++i)
         visit_points(body.corners(part, i), cell / points_per_cell, [&](glm::vec3 at) {
-          const glm::vec3 share = (at - bounds.min) / glm::max(box, glm::vec3(1e-20f));
-          const glm::ivec3 here(share * glm::vec3(size_));
+          const glm::vec3 fraction = (at - bounds.min) / glm::max(box, glm::vec3(1e-20f));
+          const glm::ivec3 here(fraction * glm::vec3(size_));
           is_taken_[index(glm::clamp(here, glm::ivec3(0), size_ - 1))] = true;
         });
   }
 
-  /// Share of the cells that have one opposite, or next to it, across a plane about the middle of `axis`: the
-  /// one of the largest share, for a mirror or an aerial on one side moves the middle of the box.
+  /// Fraction of the cells that have one opposite, or next to it, across a plane about the middle of `axis`:
+  /// the one of the largest fraction, for a mirror or an aerial on one side moves the middle of the box.
   float likeness(int axis) const {
     const int reach = size_[axis] / 6;
     float best = 0.0f;

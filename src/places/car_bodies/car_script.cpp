@@ -11,7 +11,7 @@
 namespace parvis::car_bodies {
 namespace {
 
-constexpr float rim_share = 0.68f;           // of the tyre's radius
+constexpr float rim_fraction = 0.68f;        // of the tyre's radius
 constexpr float min_openings_m2 = 0.1f;      // of windows without panes
 constexpr float min_written_aside = 0.005f;  // metres: less is 0 in the script
 
@@ -24,7 +24,7 @@ std::string fitted_wheels(const CarSurvey& found, const WheelFit& fit) {
       "{}wheels(front_axle_x={:.2f}, rear_axle_x={:.2f}, axle_z={:.2f}, track={:.2f}, radius={:.2f}, "
       "width={:.2f},\n{}    rim_radius={:.2f})\n",
       begin, sign * fit.right_x, sign * fit.left_x, fit.axle_z, fit.track, fit.radius, fit.width, begin,
-      rim_share * fit.radius);
+      rim_fraction * fit.radius);
 }
 
 std::string own_wheels(const std::vector<OwnWheel>& wheels) {

@@ -15,14 +15,14 @@ namespace parvis::car_bodies {
 namespace {
 
 constexpr float min_diameter_m = 0.4f, max_diameter_m = 1.4f;
-constexpr float max_width_share = 0.9f;    // width over diameter
-constexpr float max_oval = 1.12f;          // length over height of a wheel's box
-constexpr float min_roundness = 0.82f;     // smallest over largest radius: a hexagon has 0.87, a square 0.71
-constexpr float road_share = 0.25f;        // of the diameter, within which the lowest points of wheels lie
-constexpr float place_share = 0.3f;        // of the radius, by which the two of a pair may differ
-constexpr float max_radius_ratio = 1.15f;  // of the two of a pair
-constexpr float min_wheelbase_share = 0.25f;  // of the car's length
-constexpr float cylinder_slack = 1.03f;       // of the cylinder in which a wheel's other pieces lie
+constexpr float max_width_fraction = 0.9f;  // width over diameter
+constexpr float max_oval = 1.12f;           // length over height of a wheel's box
+constexpr float min_roundness = 0.82f;      // smallest over largest radius: a hexagon has 0.87, a square 0.71
+constexpr float road_fraction = 0.25f;      // of the diameter, within which the lowest points of wheels lie
+constexpr float place_fraction = 0.3f;      // of the radius, by which the two of a pair may differ
+constexpr float max_radius_ratio = 1.15f;   // of the two of a pair
+constexpr float min_wheelbase_fraction = 0.25f;  // of the car's length
+constexpr float cylinder_slack = 1.03f;          // of the cylinder in which a wheel's other pieces lie
 
 /// Triangles of a part that hang together by the places of their corners.
 struct ConnectedPiece {
@@ -83,9 +83,9 @@ Outline outline_of(const Body& body, const ConnectedPiece& piece) {
 bool looks_like_a_wheel(const Body& body, const ConnectedPiece& piece) {
   const glm::vec3 size = piece.bounds.size();
   const float diameter = std::max(size.x, size.z);
-  if (diameter < min_diameter_m || diameter > max_diameter_m || size.y > max_width_share * diameter ||
+  if (diameter < min_diameter_m || diameter > max_diameter_m || size.y > max_width_fraction * diameter ||
       diameter > max_oval * std::min(size.x, size.z) ||
-      piece.bounds.min.z > body.bounds().min.z + road_share * diameter)
+      piece.bounds.min.z > body.bounds().min.z + road_fraction * diameter)
     return false;
   const Outline outline = outline_of(body, piece);
   return outline.min_radius >= min_roundness * outline.max_radius;
@@ -122,7 +122,7 @@ std::vector<OwnWheel> pairs_of(const Body& body, std::vector<OwnWheel> wheels) {
     if (!is_left(left)) continue;
     const glm::vec3 mirrored(left.centre.x, 2.0f * body.middle_y() - left.centre.y, left.centre.z);
     const auto right = std::ranges::find_if(wheels, [&](const OwnWheel& other) {
-      return !is_left(other) && glm::distance(other.centre, mirrored) < place_share * left.radius &&
+      return !is_left(other) && glm::distance(other.centre, mirrored) < place_fraction * left.radius &&
              std::max(left.radius, other.radius) <= max_radius_ratio * std::min(left.radius, other.radius);
     });
     if (right != wheels.end()) pairs.push_back(left), pairs.push_back(*right);
@@ -147,7 +147,7 @@ std::vector<OwnWheel> find_own_wheels(const Body& body) {
   for (std::size_t part = 0; part < body.model().parts.size(); ++part) add_pieces(body, part, pieces);
   std::vector<OwnWheel> wheels = pairs_of(body, round_places(body, pieces));
   if (wheels.size() < 4 ||
-      wheels.back().centre.x - wheels.front().centre.x < min_wheelbase_share * body.bounds().size().x)
+      wheels.back().centre.x - wheels.front().centre.x < min_wheelbase_fraction * body.bounds().size().x)
     return {};
   for (const ConnectedPiece& piece : pieces)
     for (OwnWheel& wheel : wheels)

@@ -10,10 +10,10 @@
 namespace parvis::car_bodies {
 namespace {
 
-constexpr float grey_tolerance = 0.085f;  // largest difference of the channels of a pane's colour
-constexpr float min_pane_share = 0.02f;   // of all panes' area: smaller regions are seals and shadows
-constexpr int grid = 128;                 // cells per side of the picture, in which regions are found
-constexpr float margin = 0.006f;          // about a region, for texels of its edge
+constexpr float grey_tolerance = 0.085f;    // largest difference of the channels of a pane's colour
+constexpr float min_pane_fraction = 0.02f;  // of all panes' area: smaller regions are seals and shadows
+constexpr int grid = 128;                   // cells per side of the picture, in which regions are found
+constexpr float margin = 0.006f;            // about a region, for texels of its edge
 
 float difference(glm::vec3 a, glm::vec3 b) {
   const glm::vec3 off = glm::abs(a - b);
@@ -60,7 +60,7 @@ struct Region {
   Bounds box;  // of texture coordinates
   float area_m2 = 0.0f, holes_m2 = 0.0f;
   float low_m2 = 0.0f;  // of what has a pane's colour in this region and lies where no panes do
-  float top = 0.0f;     // share of the car's height
+  float top = 0.0f;     // fraction of the car's height
   glm::vec3 weighted_srgb{0.0f};
 };
 
@@ -165,7 +165,7 @@ std::vector<PictureMask> glass_masks(const Image8& picture, std::span<const Surf
                                      glm::vec3 paint, float all_panes_m2) {
   std::vector<PictureMask> masks;
   for (const Region& region : regions_of(samples, paint)) {
-    const bool is_large = region.area_m2 >= min_pane_share * all_panes_m2 && region.area_m2 > 0.0f;
+    const bool is_large = region.area_m2 >= min_pane_fraction * all_panes_m2 && region.area_m2 > 0.0f;
     if (is_large && reaches_roof(region.top) && region.low_m2 <= region.area_m2)
       masks.push_back(pane_mask(picture, region, paint));
   }

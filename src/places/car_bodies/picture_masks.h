@@ -36,8 +36,8 @@ glm::vec3 paint_of(std::span<const SurfaceSample> samples);
 /// holes in a picture. Bumpers and aerofoils may have such triangles, too: what they belong to says that it
 /// is none.
 bool is_pane(const SurfaceSample& sample, glm::vec3 paint);
-/// Whether a surface whose highest point is at this share of the car's height can be a pane: these lie on the
-/// cabin and reach up to its roof. Bumpers, grilles and aerofoils on boots end below.
+/// Whether a surface whose highest point is at this fraction of the car's height can be a pane: these lie on
+/// the cabin and reach up to its roof. Bumpers, grilles and aerofoils on boots end below.
 bool reaches_roof(float top);
 /// Lamps are red at the rear and yellow at the front, where the paint is not.
 bool is_lamp(const SurfaceSample& sample, glm::vec3 paint);

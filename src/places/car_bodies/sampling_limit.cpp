@@ -38,8 +38,8 @@ Result<Bounds> bounds_to_sample(const scene::Model& model, const std::string& fi
     const float longest =
         std::max({glm::distance(corners[0], corners[1]), glm::distance(corners[1], corners[2]),
                   glm::distance(corners[2], corners[0])});
-    const double share = diagonal > 0.0 ? double(longest) / diagonal : 0.0;
-    long_triangles += share * share;
+    const double fraction = diagonal > 0.0 ? double(longest) / diagonal : 0.0;
+    long_triangles += fraction * fraction;
   });
   if (long_triangles <= max_long_triangles) return bounds;
   return error_at(

@@ -15,10 +15,10 @@ SideView::SideView(const Body& body) : bounds_(body.bounds()), middle_y_(body.mi
 }
 
 float SideView::openings_m2() const {
-  constexpr float from_share = 0.5f;
+  constexpr float from_fraction = 0.5f;
   std::size_t cells = 0;
   std::vector<bool> is_below_skin(std::size_t(columns_), false);
-  for (int row = rows_ - 1; row >= row_at(from_share); --row) {
+  for (int row = rows_ - 1; row >= row_at(from_fraction); --row) {
     int first = columns_, last = -1;
     for (int column = 0; column < columns_; ++column)
       if (depth(column, row) != nothing) first = std::min(first, column), last = column;

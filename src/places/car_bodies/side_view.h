@@ -26,8 +26,8 @@ class SideView {
   float x(int column) const { return bounds_.min.x + (float(column) + 0.5f) * cell_m; }
   /// Height of a row's lower edge.
   float z(int row) const { return bounds_.min.z + float(row) * cell_m; }
-  /// The row at a share of the height of the body.
-  int row_at(float share) const { return std::min(int(share * float(rows_)), rows_ - 1); }
+  /// The row at a fraction of the height of the body.
+  int row_at(float fraction) const { return std::min(int(fraction * float(rows_)), rows_ - 1); }
 
   /// Area of the openings above half of the height through which one looks from side to side: windows without
   /// panes, square metres.

@@ -15,7 +15,7 @@ struct SurfaceSample {
   glm::vec3 normal{
       0.0f};  ///< away from the car's middle, whatever the file's winding; 0 where it has no area
   float area_m2 = 0.0f;
-  float height = 0.0f;        ///< of its middle, as a share of the car's
+  float height = 0.0f;        ///< of its middle, as a fraction of the car's
   float top = 0.0f;           ///< height of its highest corner, likewise
   float forward = 0.0f;       ///< of its middle: -0.5 at the rear bumper to 0.5 at the front bumper
   glm::vec2 uv{0.0f};         ///< of its middle, in the picture: 0 to 1, as masks have it

@@ -7,15 +7,15 @@
 namespace parvis::car_bodies {
 namespace {
 
-constexpr float probe_share = 0.3f;      // of the height: every arch is open here
-constexpr float max_arch_share = 0.75f;  // of the height: no arch rises above
-constexpr float min_inset_m = 0.06f;     // of an arch behind the skin beside it
-constexpr float skin_reach_m = 0.6f;     // along the car, in which the skin is looked for
+constexpr float probe_fraction = 0.3f;      // of the height: every arch is open here
+constexpr float max_arch_fraction = 0.75f;  // of the height: no arch rises above
+constexpr float min_inset_m = 0.06f;        // of an arch behind the skin beside it
+constexpr float skin_reach_m = 0.6f;        // along the car, in which the skin is looked for
 constexpr float min_arch_m = 0.4f, max_arch_m = 1.3f;
 constexpr float min_radius_m = 0.2f, max_radius_m = 0.8f;
 constexpr float gap_m = 0.04f;            // between tyre and arch
-constexpr float tyre_share = 0.82f;       // of the arch's radius
-constexpr float width_share = 0.6f;       // of the tyre's radius
+constexpr float tyre_fraction = 0.82f;    // of the arch's radius
+constexpr float width_fraction = 0.6f;    // of the tyre's radius
 constexpr float max_clearance_m = 0.22f;  // between the road and the lowest point of the body
 
 /// How far out the skin of doors and wings lies about a column.
@@ -33,10 +33,10 @@ float skin_depth(const SideView& side, int column) {
 
 /// The upper edge of the opening in a column at the height of the axles; 0: there is none.
 float arch_top(const SideView& side, int column, float skin_m) {
-  int row = side.row_at(probe_share);
+  int row = side.row_at(probe_fraction);
   const auto is_open = [&] { return side.depth(column, row) < skin_m - min_inset_m; };
   if (!is_open()) return 0.0f;
-  const int last = side.row_at(max_arch_share);
+  const int last = side.row_at(max_arch_fraction);
   while (row < last && is_open()) ++row;
   return row < last ? side.z(row) : 0.0f;
 }
@@ -102,10 +102,10 @@ std::optional<WheelFit> fit_wheels(const SideView& side) {
   // Never so small that the body would reach below the road, nor so large that it would stand on stilts: the
   // circle through a flat arch is larger than its wheel.
   const float body_m = top - side.bounds().min.z;
-  fit.radius = std::clamp(tyre_share * 0.5f * (first.radius + last.radius), 0.5f * body_m,
+  fit.radius = std::clamp(tyre_fraction * 0.5f * (first.radius + last.radius), 0.5f * body_m,
                           0.5f * (body_m + max_clearance_m));
   fit.axle_z = top - fit.radius;
-  fit.width = width_share * fit.radius;
+  fit.width = width_fraction * fit.radius;
   fit.track = 2.0f * (std::min(first.skin, last.skin) - 0.5f * fit.width - 0.01f);
   return fit;
 }

@@ -16,11 +16,11 @@
 namespace parvis::dressing {
 namespace {
 
-constexpr float exhibit_m = 30.0f;      // what is smaller is a thing to look at: a car, a house
-constexpr float alone_m = 70.0f;        // a town model no larger is one house
-constexpr float house_m = 2.6f;         // an exhibit so high and so wide is a house, no car or bench
-constexpr double dense_share = 0.25;    // of the place, which is built over
-constexpr float view_margin_m = 60.0f;  // of ground around the place, for choosing views
+constexpr float exhibit_m = 30.0f;       // what is smaller is a thing to look at: a car, a house
+constexpr float alone_m = 70.0f;         // a town model no larger is one house
+constexpr float house_m = 2.6f;          // an exhibit so high and so wide is a house, no car or bench
+constexpr double dense_fraction = 0.25;  // of the place, which is built over
+constexpr float view_margin_m = 60.0f;   // of ground around the place, for choosing views
 constexpr float steep = 0.7f;           // cosine of 45 degrees: green that rises so was measured from the air
 constexpr double min_spikes = 0.05;     // of such green, which stands upright
 constexpr float wall_cos = 0.3f;        // of 73 degrees: what is steeper is a wall
@@ -85,7 +85,7 @@ double area_of(const Model& model, const std::string& name) {
 /// True if houses stand close, as in a town, not in gardens as in a village.
 bool is_dense(const Model& model) {
   const glm::vec3 size = scene::bounds(model).size();
-  return area_of(model, "RoofSurface") > dense_share * double(size.x) * double(size.y);
+  return area_of(model, "RoofSurface") > dense_fraction * double(size.x) * double(size.y);
 }
 
 /// The fraction of the surface of this name, dams left out, that is steeper than the angle of this cosine.

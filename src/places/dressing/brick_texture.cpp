@@ -23,7 +23,7 @@ WindowStyle window_style() {
   return style;
 }
 
-/// While painting, alpha is the share that is not brick and keeps its colour: mortar, which is greyer.
+/// While painting, alpha is the fraction that is not brick and keeps its colour: mortar, which is greyer.
 void mark_bricks(Texel& t) {
   t.alpha = glm::smoothstep(0.45f, 0.7f, t.colour.z / t.colour.x);
   t.colour *= 1.0f - 0.45f * t.alpha;

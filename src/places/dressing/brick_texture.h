@@ -34,7 +34,7 @@ BrickWalls brick_wall_pictures(BrickSheet sheet, std::uint32_t seed);
 /// Mean colours of bricks, linear: red, orange, brown, yellow, whitened.
 std::array<glm::vec3, brick_colour_count> brick_colours();
 
-/// Bricks all over a canvas, in the colour of `painted_brick`. Alpha is the share of a texel that is not
+/// Bricks all over a canvas, in the colour of `painted_brick`. Alpha is the fraction of a texel that is not
 /// brick.
 void paint_bricks(synthesis::SurfaceCanvas& canvas, std::uint32_t seed);
 /// The colour that `paint_bricks` paints them in, linear.

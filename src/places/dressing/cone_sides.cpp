@@ -39,8 +39,8 @@ std::vector<std::optional<ConeSide>> cone_sides(const std::vector<ModelTriangle>
     for (const std::size_t i : sides)
       for (const glm::vec3& corner : roofs[i].corners) {
         const glm::vec3 down = corner - roofs[i].corners[top_of(roofs[i])];
-        const float share = 0.5f / float(sides.size());  // two corners of a side lie at the foot
-        cone.radius_m += share * glm::length(glm::vec2(down)), cone.slope_m += share * glm::length(down);
+        const float weight = 0.5f / float(sides.size());  // two corners of a side lie at the foot
+        cone.radius_m += weight * glm::length(glm::vec2(down)), cone.slope_m += weight * glm::length(down);
       }
     for (const std::size_t i : sides) {
       cone.top = top_of(roofs[i]);

@@ -16,14 +16,14 @@ constexpr float fewest_tiles = 6.0f;
 constexpr float triangle_counted_at = 0.7f;  // of the way to its foot: half its area lies below
 constexpr std::size_t max_rings = 8;
 
-/// Where a course has half as many tiles as below it, from the foot up: shares of the way from the top to the
-/// foot, at whole courses, the foot itself first.
+/// Where a course has half as many tiles as below it, from the foot up: fractions of the way from the top to
+/// the foot, at whole courses, the foot itself first.
 std::vector<float> ring_feet(const ConeSide& cone) {
   std::vector<float> feet{1.0f};
   while (feet.size() < max_rings) {
-    const float share = course_m / cone.slope_m * std::round(0.5f * feet.back() * cone.slope_m / course_m);
-    if (!(share * cone.radius_m > min_cone_radius_m) || !(share < 0.9f * feet.back())) break;
-    feet.push_back(share);
+    const float fraction = course_m / cone.slope_m * std::round(0.5f * feet.back() * cone.slope_m / course_m);
+    if (!(fraction * cone.radius_m > min_cone_radius_m) || !(fraction < 0.9f * feet.back())) break;
+    feet.push_back(fraction);
   }
   return feet;
 }
@@ -40,7 +40,7 @@ class ConeSector {
     turns_[1] -= std::round(turns_[1] - turns_[0]);  // the short way round
   }
 
-  /// The piece between two shares of the way to the foot: a triangle at the top, else two.
+  /// The piece between two fractions of the way to the foot: a triangle at the top, else two.
   void add_ring(float head, float foot, std::vector<TiledPiece>& pieces) const {
     const float counted_at = head > 0.0f ? 0.5f * (head + foot) : triangle_counted_at * foot;
     const float girth_m = glm::two_pi<float>() * cone_.radius_m * counted_at;
@@ -59,12 +59,12 @@ class ConeSector {
     glm::vec2 uv;
   };
 
-  Point at(std::size_t edge, float share, float sheets) const {
+  Point at(std::size_t edge, float fraction, float sheets) const {
     const std::size_t foot = foot_[edge];
-    return {glm::mix(side_.corners[cone_.top], side_.corners[foot], share),
-            glm::mix(side_.corners_in_node[cone_.top], side_.corners_in_node[foot], share),
+    return {glm::mix(side_.corners[cone_.top], side_.corners[foot], fraction),
+            glm::mix(side_.corners_in_node[cone_.top], side_.corners_in_node[foot], fraction),
             cone_.normals[foot],
-            {sheets * turns_[edge], share * cone_.slope_m / synthesis::roof_sheet_m}};
+            {sheets * turns_[edge], fraction * cone_.slope_m / synthesis::roof_sheet_m}};
   }
   Point top(float sheets) const {
     return {side_.corners[cone_.top],

@@ -29,17 +29,17 @@ constexpr float shed_m = 2.9f;            // lower: nobody lives there
 constexpr float narrowest_on_roof_m =
     5.0f;                         // of a wall above a lower roof: else it is the side of the next house
 constexpr float garage_m = 2.7f;  // width of a shed with a door
-constexpr float max_ground_storey_m = 4.2f, cornice_m = 0.2f;  // no storey is higher; above the last one
-constexpr float shop_share = 0.2f, two_storeys_m = 5.4f;       // of houses from so high on
-constexpr float same_eaves_m = 0.9f;                           // houses of a row differ where their eaves do
-constexpr float seam_m = 1e-3f;                                // no strip is lower
+constexpr float max_ground_storey_m = 4.2f, cornice_m = 0.2f;   // no storey is higher; above the last one
+constexpr float shop_probability = 0.2f, two_storeys_m = 5.4f;  // of houses from so high on
+constexpr float same_eaves_m = 0.9f;                            // houses of a row differ where their eaves do
+constexpr float seam_m = 1e-3f;                                 // no strip is lower
 constexpr std::size_t sheet_count = 3;
 
 constexpr float min_storey_m = 2.2f, max_storey_m = 5.5f;  // else the number of storeys is not believed
 constexpr float gates_m = 4.8f, low_gates_m = 3.1f;        // height of the gates' strip: of works, of sheds
 constexpr float nave_foot_m = 1.4f, nave_m = 12.0f, nave_bay_m = 4.6f;
 constexpr float nave_top_m = 0.5f, lowest_nave_m = 4.5f;  // of wall above; lower walls have no windows
-constexpr float below_next_row = 0.01f;                   // share of a cell of a sheet
+constexpr float below_next_row = 0.01f;                   // fraction of a cell of a sheet
 
 /// Properties that the walls of one house have in common.
 struct HouseStyle {
@@ -66,7 +66,7 @@ HouseStyle style_of(const WallPanel& panel, std::uint64_t seed) {
   HouseStyle style;
   style.colour = random.index(brick_colour_count);
   style.storey_m = random.uniform(2.8f, 3.35f), style.bay_m = random.uniform(2.5f, 3.3f);
-  style.is_shop = random.chance(shop_share) && panel.eaves_m - panel.low.y > two_storeys_m;
+  style.is_shop = random.chance(shop_probability) && panel.eaves_m - panel.low.y > two_storeys_m;
   style.band = random.chance(0.5f) ? StreetBand::houses : StreetBand::wide_panes;
   if (panel.kind.use != scene::BuildingUse::unknown)
     style.is_shop = panel.kind.use == scene::BuildingUse::shop;
@@ -355,8 +355,8 @@ class Dresser {
 
   /// Normal of the curve that the panel is a facet of, at a place along it.
   glm::vec3 normal_at(float place) const {
-    const float share = (place - panel_->low.x) / std::max(panel_->high.x - panel_->low.x, 1e-4f);
-    return glm::normalize(glm::mix(panel_->run.first_normal, panel_->run.last_normal, share));
+    const float fraction = (place - panel_->low.x) / std::max(panel_->high.x - panel_->low.x, 1e-4f);
+    return glm::normalize(glm::mix(panel_->run.first_normal, panel_->run.last_normal, fraction));
   }
 
   DressedParts& parts_;

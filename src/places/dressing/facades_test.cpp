@@ -83,7 +83,7 @@ void add_wall(scene::Model& model, float x0, float x1, float foot, float top, fl
   mesh.uvs.resize(mesh.positions.size());
 }
 
-double share_of(const scene::Model& model, const char* material) {
+double fraction_of(const scene::Model& model, const char* material) {
   return area_of(model, material) / area_of(model, "facade*");
 }
 
@@ -215,12 +215,12 @@ TEST(Facades, HousesHaveDoorsAtTheStreetAndPartyWallsAreBlank) {
   add_facades(free_wall, "*");
   EXPECT_GT(area_of(free_wall, "street level"), 30.0);
   EXPECT_GT(area_of(free_wall, "facade"), 60.0);
-  EXPECT_LT(share_of(free_wall, "brick wall"), 0.02);
+  EXPECT_LT(fraction_of(free_wall, "brick wall"), 0.02);
   scene::Model party = no_walls();
   add_wall(party, 0.0f, 12.0f, 0.0f, 9.0f);
   add_wall(party, 0.0f, 12.0f, 0.0f, 6.0f, -0.1f, true);  // of the next house
   add_facades(party, "*");
-  EXPECT_NEAR(share_of(party, "brick wall"), 1.0, 1e-3);
+  EXPECT_NEAR(fraction_of(party, "brick wall"), 1.0, 1e-3);
 }
 
 /// A box of walls from one height to another, of 4.5 m by 12 m, over an underside where one is wanted.
@@ -295,7 +295,7 @@ TEST(Facades, WindowsAndPicturesOfTheModelAreKept) {
   for (const char* target : {"building", "*"}) {
     scene::Model dressed = glazed;
     EXPECT_EQ(add_facades(dressed, target), 2u) << target;
-    EXPECT_NEAR(share_of(dressed, "brick wall"), 1.0, 1e-3) << target;
+    EXPECT_NEAR(fraction_of(dressed, "brick wall"), 1.0, 1e-3) << target;
     EXPECT_NEAR(area_of(dressed, "Window"), 2.0, 1e-6) << target;
     EXPECT_NEAR(area_of(dressed, "leaf"), 2.0, 1e-6) << target;
   }
@@ -354,8 +354,8 @@ float rows_of(const scene::Model& model, float rows_on_sheet) {
   return (high - low) * rows_on_sheet;
 }
 
-/// The share of a wall, as its colours and the glass of its texture show, that is smooth: panes.
-double glass_share(const scene::Model& model) {
+/// The fraction of a wall, as its colours and the glass of its texture show, that is smooth: panes.
+double glass_fraction(const scene::Model& model) {
   double glass = 0.0, all = 0.0;
   for (const scene::Part& part : model.parts) {
     const scene::Material& paint = model.materials[std::size_t(part.material)];
@@ -412,16 +412,16 @@ TEST(Facades, StoreysOfTheNineteenthCenturyAreHigherThanThoseAfterTheWar) {
 }
 
 TEST(Facades, UsesHaveTheirWindows) {
-  const double dwelling = glass_share(dressed_wall("dwelling 1946-1974")),
-               office = glass_share(dressed_wall("office 1946-1974")),
-               shop = glass_share(dressed_wall("shop 1946-1974")),
-               church = glass_share(dressed_wall("church 1870-1918", 20.0f, 12.0f));
+  const double dwelling = glass_fraction(dressed_wall("dwelling 1946-1974")),
+               office = glass_fraction(dressed_wall("office 1946-1974")),
+               shop = glass_fraction(dressed_wall("shop 1946-1974")),
+               church = glass_fraction(dressed_wall("church 1870-1918", 20.0f, 12.0f));
   EXPECT_GT(dwelling, 0.1);
   EXPECT_GT(office, 1.3 * dwelling) << "bands of windows";
   EXPECT_GT(shop, dwelling) << "a shop front";
   EXPECT_GT(church, 0.1);
   for (const char* blank : {"industry", "industry 1975-1999", "shed 1946-1974", "shed"})
-    EXPECT_LT(glass_share(dressed_wall(blank)), 0.01) << blank << ": gates at most";
+    EXPECT_LT(glass_fraction(dressed_wall(blank)), 0.01) << blank << ": gates at most";
 }
 
 TEST(Facades, TheFilesMaterialsAndColoursAreUsed) {

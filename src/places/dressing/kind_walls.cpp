@@ -25,9 +25,10 @@ glm::vec3 dark_paint() { return linear_from_srgb8(0x3A, 0x3D, 0x40); }
 glm::vec3 brown_paint() { return linear_from_srgb8(0x5E, 0x44, 0x33); }
 glm::vec3 trim_stone() { return linear_from_srgb8(0xC6, 0xC0, 0xB2); }
 
-/// Buildings of an epoch: shares of finishes, measures, windows in a cell of brick_bay_m by brick_storey_m.
+/// Buildings of an epoch: fractions of finishes, measures, windows in a cell of brick_bay_m by
+/// brick_storey_m.
 struct Epoch {
-  float brick, plaster;  ///< shares of houses; the rest is of `else_of`
+  float brick, plaster;  ///< fractions of houses; the rest is of `else_of`
   WallFinish else_of;
   WallMeasures measures;
   glm::vec2 window_m;  ///< width and height

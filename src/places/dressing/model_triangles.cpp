@@ -28,8 +28,8 @@ glm::vec3 flat_in_node(const ModelTriangle& triangle) {
   return glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
 }
 
-CutPoint mix(const CutPoint& a, const CutPoint& b, float share) {
-  return {glm::mix(a.in_model, b.in_model, share), glm::mix(a.in_node, b.in_node, share)};
+CutPoint mix(const CutPoint& a, const CutPoint& b, float weight) {
+  return {glm::mix(a.in_model, b.in_model, weight), glm::mix(a.in_node, b.in_node, weight)};
 }
 
 }  // namespace

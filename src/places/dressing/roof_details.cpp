@@ -318,8 +318,8 @@ void add_flat_chimney(const BuildingRoofs& building, Materials& materials, const
   for (const RoofEdge& edge : building.edges)
     if (edge.length() > 2.0f && (!best || rank(edge) > rank(*best))) best = &edge;
   if (!best) return;
-  const float share = random.uniform(0.3f, 0.7f), aside_m = best->beside == Beside::nothing ? 1.4f : 0.4f;
-  const vec3 at = glm::mix(best->from, best->to, share);
+  const float fraction = random.uniform(0.3f, 0.7f), aside_m = best->beside == Beside::nothing ? 1.4f : 0.4f;
+  const vec3 at = glm::mix(best->from, best->to, fraction);
   const vec2 middle = vec2(at) + aside_m * left_of(best->along());
   const std::optional<float> z = finder.height(middle);
   if (!z || std::abs(*z - at.z) > same_height_m) return;

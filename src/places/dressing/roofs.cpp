@@ -20,7 +20,7 @@ using synthesis::SurfacePictures, synthesis::gravel_pictures, synthesis::gravel_
     synthesis::roof_sheet_m, synthesis::roof_tile_pictures;
 
 struct Tint {
-  float share;  ///< of roofs that have this one or an earlier one
+  float fraction;  ///< of roofs that have this one or an earlier one
   glm::vec3 colour;
 };
 constexpr std::array<Tint, 3> flat_tints{
@@ -31,7 +31,7 @@ constexpr std::array<Tint, 4> tile_tints{{{0.4f, {1.0f, 1.0f, 1.0f}},
                                           {1.0f, {0.36f, 0.5f, 0.66f}}}};
 
 int chosen(std::span<const Tint> tints, float choice) {
-  return int(std::find_if(tints.begin(), tints.end(), [&](const Tint& t) { return choice < t.share; }) -
+  return int(std::find_if(tints.begin(), tints.end(), [&](const Tint& t) { return choice < t.fraction; }) -
              tints.begin());
 }
 

@@ -15,7 +15,7 @@ const float min_cos = std::cos(glm::radians(30.0f)), max_cos = std::cos(glm::rad
 constexpr float same_run_height_m = 0.1f;  // of the feet and of the eaves of a run
 constexpr float beside_m = 0.1f;           // overlap in height from which on a wall meets another one
 constexpr std::size_t max_ends = 50;       // at one point: maps that heap more on it are wrong
-constexpr float even = 0.05f;              // widths of facets that differ by a smaller share are the same
+constexpr float even = 0.05f;              // widths of facets that differ by a smaller fraction are the same
 
 float width_of(const WallPanel& panel) { return panel.high.x - panel.low.x; }
 

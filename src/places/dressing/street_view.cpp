@@ -182,14 +182,14 @@ class Judge {
   float lined(const Stand& stand, float length_m) const {
     constexpr std::array looks_m{8.0f, 20.0f, 35.0f, 55.0f};
     const glm::vec2 aside(-stand.ahead.y, stand.ahead.x);
-    float share = 0.0f;
+    float fraction = 0.0f;
     for (const float ahead_m : looks_m) {
       if (ahead_m > length_m) break;
       const glm::vec2 at = stand.spot + ahead_m * stand.ahead;
       for (const float side : {-1.0f, 1.0f})
-        if (free_m(at, side * aside, side_m) < side_m) share += 0.5f / float(looks_m.size());
+        if (free_m(at, side * aside, side_m) < side_m) fraction += 0.5f / float(looks_m.size());
     }
-    return share;
+    return fraction;
   }
 
   /// How much of the view ends at something near.

@@ -94,10 +94,11 @@ bool is_even(const CellBlock& block, const CornerAt& corner, float tolerance_m) 
     for (int x = block.low.x; x <= high.x; ++x) {
       const Corner each = corner(x, y);
       if (std::abs(each.position.z - a.position.z) > tolerance_m) return false;
-      const glm::vec2 share = glm::vec2(x - block.low.x, y - block.low.y) / glm::vec2(block.size);
-      const float edge_m = share.x > share.y  // as the two triangles have it
-                               ? glm::mix(a.edge_m, b.edge_m, share.x) + share.y * (c.edge_m - b.edge_m)
-                               : glm::mix(a.edge_m, d.edge_m, share.y) + share.x * (c.edge_m - d.edge_m);
+      const glm::vec2 fraction = glm::vec2(x - block.low.x, y - block.low.y) / glm::vec2(block.size);
+      const float edge_m =
+          fraction.x > fraction.y  // as the two triangles have it
+              ? glm::mix(a.edge_m, b.edge_m, fraction.x) + fraction.y * (c.edge_m - b.edge_m)
+              : glm::mix(a.edge_m, d.edge_m, fraction.y) + fraction.x * (c.edge_m - d.edge_m);
       if ((each.edge_m < 0.0f) != (edge_m < 0.0f) && std::abs(each.edge_m) > straight_m) return false;
     }
   return true;

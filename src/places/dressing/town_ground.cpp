@@ -60,10 +60,10 @@ class Density {
           place.y < float(built_.height - 1)))
       return -dense;
     const glm::ivec2 low(place);
-    const vec2 share = place - vec2(low);
-    return glm::mix(glm::mix(built_.at(low.x, low.y), built_.at(low.x + 1, low.y), share.x),
-                    glm::mix(built_.at(low.x, low.y + 1), built_.at(low.x + 1, low.y + 1), share.x),
-                    share.y) -
+    const vec2 fraction = place - vec2(low);
+    return glm::mix(glm::mix(built_.at(low.x, low.y), built_.at(low.x + 1, low.y), fraction.x),
+                    glm::mix(built_.at(low.x, low.y + 1), built_.at(low.x + 1, low.y + 1), fraction.x),
+                    fraction.y) -
            dense;
   }
 
@@ -121,9 +121,9 @@ struct GroundCorner {
   float density;
 };
 
-GroundCorner mix(const GroundCorner& a, const GroundCorner& b, float share) {
-  return {glm::mix(a.in_node, b.in_node, share), glm::mix(a.normal, b.normal, share),
-          glm::mix(a.plan, b.plan, share), glm::mix(a.density, b.density, share)};
+GroundCorner mix(const GroundCorner& a, const GroundCorner& b, float weight) {
+  return {glm::mix(a.in_node, b.in_node, weight), glm::mix(a.normal, b.normal, weight),
+          glm::mix(a.plan, b.plan, weight), glm::mix(a.density, b.density, weight)};
 }
 
 /// Divides the triangles of one part.

@@ -161,8 +161,8 @@ std::vector<float> beside(const std::vector<float>& break_points) {
 }
 
 /// Gives each panel of a wall, from its low end on, the triangles that it crosses.
-void share_out(const Surface& surface, const std::vector<ModelTriangle>& walls, glm::vec3 along,
-               std::span<WallPanel> panels) {
+void distribute(const Surface& surface, const std::vector<ModelTriangle>& walls, glm::vec3 along,
+                std::span<WallPanel> panels) {
   for (const std::size_t i : surface.triangles) {
     const auto [low, high] =
         std::minmax({glm::dot(walls[i].corners[0], along), glm::dot(walls[i].corners[1], along),
@@ -218,7 +218,7 @@ void add_panels(Surface surface, const std::vector<ModelTriangle>& walls, std::v
     WallPanel& panel = panels.back();
     panel.low.y = surface.bottom_m, panel.high.y = panel.eaves_m = surface.top_m;
   }
-  share_out(surface, walls, along, std::span(panels).subspan(first_panel));
+  distribute(surface, walls, along, std::span(panels).subspan(first_panel));
 }
 
 /// A place on a panel, in plan.

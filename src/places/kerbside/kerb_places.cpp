@@ -41,8 +41,8 @@ template <class At>
 bool all_along(vec2 middle, vec2 along, const KerbSeries& series, At&& at) {
   const int steps = int(std::ceil(2.0f * series.half_length_m / series.radius_m));
   for (int i = 0; i <= steps; ++i) {
-    const float share = steps == 0 ? 0.0f : 2.0f * float(i) / float(steps) - 1.0f;
-    if (!at(middle + share * series.half_length_m * along)) return false;
+    const float place = steps == 0 ? 0.0f : 2.0f * float(i) / float(steps) - 1.0f;
+    if (!at(middle + place * series.half_length_m * along)) return false;
   }
   return true;
 }

@@ -99,11 +99,12 @@ void add_pot(scene::Model& model, glm::vec3 foot) {
     const glm::vec3 out(std::cos(heading), std::sin(heading), 0.0f);
     std::vector<synthesis::TubeRing> rings;
     for (int k = 0; k <= 14; ++k) {
-      const float share = float(k) / 14.0f;
+      const float fraction = float(k) / 14.0f;
       const float radius =
-          share < 0.72f ? 0.005f : 0.005f + 0.012f * std::sin(3.14159265f * (share - 0.72f) / 0.3f);
+          fraction < 0.72f ? 0.005f : 0.005f + 0.012f * std::sin(3.14159265f * (fraction - 0.72f) / 0.3f);
       rings.push_back(
-          {foot + glm::vec3(0, 0, 0.06f + 0.26f * share) + (0.01f + lean * share * 1.4f) * out, radius});
+          {foot + glm::vec3(0, 0, 0.06f + 0.26f * fraction) + (0.01f + lean * fraction * 1.4f) * out,
+           radius});
     }
     add_part(model, "wooden spoon", tube(rings, 10), wood);
   }

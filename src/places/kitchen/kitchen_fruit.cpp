@@ -56,8 +56,8 @@ void add_banana(scene::Model& model, glm::vec3 foot, float heading, float lean) 
   constexpr int count = 16;
   constexpr float curve_radius_m = 0.11f;
   for (int i = 0; i <= count; ++i) {
-    const float share = float(i) / float(count), angle = 1.7f * (share - 0.5f);
-    const float body = std::pow(std::sin(3.14159265f * (0.06f + 0.88f * share)), 0.45f);
+    const float fraction = float(i) / float(count), angle = 1.7f * (fraction - 0.5f);
+    const float body = std::pow(std::sin(3.14159265f * (0.06f + 0.88f * fraction)), 0.45f);
     rings.push_back(
         {{curve_radius_m * std::sin(angle), 0.0f, curve_radius_m * (1.0f - std::cos(angle))}, 0.017f * body});
   }

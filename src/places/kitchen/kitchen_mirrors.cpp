@@ -52,9 +52,9 @@ void add_turned(scene::Model& model, const char* name, const Outline& outline, S
 void add_handle(scene::Model& model, float radius, float height, float length) {
   std::vector<synthesis::TubeRing> rings;
   for (int i = 0; i <= 10; ++i) {
-    const float share = float(i) / 10.0f;
-    rings.push_back({{radius - 0.002f + length * share, 0.0f, height + 0.03f * share * share},
-                     0.0085f - 0.002f * std::cos(6.2831853f * share)});
+    const float fraction = float(i) / 10.0f;
+    rings.push_back({{radius - 0.002f + length * fraction, 0.0f, height + 0.03f * fraction * fraction},
+                     0.0085f - 0.002f * std::cos(6.2831853f * fraction)});
   }
   add(model, "handle", tube(rings), black_handle);
 }
@@ -185,10 +185,10 @@ scene::Model spoon(const char* name, bool is_turned_over) {
   const float up = is_turned_over ? -1.0f : 1.0f;
   std::vector<synthesis::TubeRing> rings;
   for (int i = 0; i <= 14; ++i) {
-    const float share = float(i) / 14.0f;
+    const float fraction = float(i) / 14.0f;
     rings.push_back(
-        {{0.02f - 0.125f * share, 0.0f, up * 0.0105f * std::sin(3.0f * (1.0f - share)) - up * 0.002f},
-         0.0028f + 0.0022f * share});
+        {{0.02f - 0.125f * fraction, 0.0f, up * 0.0105f * std::sin(3.0f * (1.0f - fraction)) - up * 0.002f},
+         0.0028f + 0.0022f * fraction});
   }
   const glm::mat4 lie =
       is_turned_over ? glm::rotate(glm::translate(glm::mat4(1.0f), {0, 0, 0.003f}), 3.14159265f, {1, 0, 0})

@@ -35,7 +35,7 @@ std::string two_bounces() {
   return "scenario(name=\"two bounces\") {\n  override(of=\"%reflection\", bounces=2)\n}\n";
 }
 
-/// The paper's figure 7 shows grids with these shares of the vertices, in percent, its figure 8 its own
+/// The paper's figure 7 shows grids with these fractions of the vertices, in percent, its figure 8 its own
 /// search with so many iterations for every vertex.
 std::string figures_7_and_8() {
   const auto scenario = [](const std::string& name, const std::string& attributes) {

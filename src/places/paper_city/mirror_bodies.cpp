@@ -17,7 +17,8 @@ struct Section {
   glm::vec3 centre, across, up;
 };
 
-/// The skin through sections for shares 0 to 1 of its length: closed where the first and the last are points.
+/// The skin through sections for fractions 0 to 1 of its length: closed where the first and the last are
+/// points.
 Mesh skin(int rings, int sides, const std::function<Section(float)>& section) {
   Mesh mesh;
   for (int ring = 0; ring <= rings; ++ring) {
@@ -56,9 +57,9 @@ float through(float before, float from, float to, float after, float t) {  // Ca
                           t * (3.0f * (from - to) + after - before)));
 }
 
-Section trunk_section(float share) {
+Section trunk_section(float fraction) {
   constexpr int last = int(std::size(trunk_sections)) - 1;
-  const float at = share * float(last);
+  const float at = fraction * float(last);
   const int i = std::min(int(at), last - 1);
   const float t = at - float(i);
   const auto value = [&](float TrunkSection::*member) {
@@ -72,11 +73,12 @@ Section trunk_section(float share) {
 
 /// A blade that runs from its root to its tip, swept back, widest near the root.
 Mesh fin(glm::vec3 root, glm::vec3 tip, float chord_m, glm::vec3 thick) {
-  return skin(fin_rings, fin_sides, [=](float share) {
+  return skin(fin_rings, fin_sides, [=](float fraction) {
     const float width =
-        0.5f * chord_m * std::sqrt(std::max(1.0f - share * share, 0.0f)) * (1.0f - 0.35f * share);
-    const glm::vec3 sweep(-0.55f * share * share * glm::length(tip - root), 0.0f, 0.0f);
-    return Section{glm::mix(root, tip, share) + sweep, glm::vec3(-width, 0.0f, 0.0f), 0.14f * width * thick};
+        0.5f * chord_m * std::sqrt(std::max(1.0f - fraction * fraction, 0.0f)) * (1.0f - 0.35f * fraction);
+    const glm::vec3 sweep(-0.55f * fraction * fraction * glm::length(tip - root), 0.0f, 0.0f);
+    return Section{glm::mix(root, tip, fraction) + sweep, glm::vec3(-width, 0.0f, 0.0f),
+                   0.14f * width * thick};
   });
 }
 
@@ -97,8 +99,8 @@ scene::Model of_metal(const char* name, std::vector<Mesh> meshes) {
 }  // namespace
 
 scene::Model make_ball() {
-  return of_metal("ball", {skin(body_rings, body_sides, [](float share) {
-                    const float polar = glm::pi<float>() * share, radius = std::sin(polar);
+  return of_metal("ball", {skin(body_rings, body_sides, [](float fraction) {
+                    const float polar = glm::pi<float>() * fraction, radius = std::sin(polar);
                     return Section{{0.0f, 0.0f, std::cos(polar)}, {radius, 0.0f, 0.0f}, {0.0f, radius, 0.0f}};
                   })});
 }

@@ -17,7 +17,7 @@
 namespace parvis::city {
 namespace {
 
-constexpr float lit_windows_share = 0.32f, lit_shops_share = 0.8f;
+constexpr float lit_windows_probability = 0.32f, lit_shops_probability = 0.8f;
 constexpr float before_wall_m = 0.012f;
 constexpr float lit_shop_reach_m = 130.0f;  // from the main crossing: shops there light the pavement
 constexpr int window_tints = 3, shop_sheet = facade_style_count;
@@ -45,7 +45,7 @@ void add_ground_floor(std::vector<LitCell>& cells, const Building& b, std::size_
   const int modules = modules_along(face.width_m, synthesis::shop_module_m),
             first = b.module_offset + 2 * int(face_index);
   for (int i = 0; i < modules; ++i) {
-    if (!random.chance(b.has_shops ? lit_shops_share : lit_windows_share)) continue;
+    if (!random.chance(b.has_shops ? lit_shops_probability : lit_windows_probability)) continue;
     const float step = face.width_m / float(modules);
     cells.push_back({&b,
                      &face,
@@ -64,7 +64,7 @@ void add_upper_floors(std::vector<LitCell>& cells, const Building& b, const Face
   const float step = face.width_m / float(face.bays);
   for (int floor = 0; floor < b.upper_floors; ++floor)
     for (int bay = 0; bay < face.bays; ++bay) {
-      if (!random.chance(lit_windows_share)) continue;
+      if (!random.chance(lit_windows_probability)) continue;
       const float low = b.ground_m + b.floor_m * float(floor);
       const float u = float(b.bay_offset + bay) / float(facade_bays);
       cells.push_back({&b,

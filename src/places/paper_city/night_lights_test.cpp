@@ -25,9 +25,9 @@ TEST(NightLights, GlassAloneIsLit) {
         EXPECT_GT(texel[0], 60);
       }
     }
-  const double share = double(glass) / double(lit.width * lit.height);
-  EXPECT_GT(share, 0.06) << "twelve windows of 2 m2 on 130 m2, less frames and closed shutters";
-  EXPECT_LT(share, 0.2);
+  const double fraction = double(glass) / double(lit.width * lit.height);
+  EXPECT_GT(fraction, 0.06) << "twelve windows of 2 m2 on 130 m2, less frames and closed shutters";
+  EXPECT_LT(fraction, 0.2);
   EXPECT_EQ(bright_walls, 0);
 }
 
