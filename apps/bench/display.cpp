@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "bench/own_program.h"
 #include "bench/parts.h"
+#include "bench/reflections/judged_method.h"
 #include "planning/devices/devices.h"
 #include "scene/data/test_scene.h"
 #include "stage/walls.h"
@@ -288,27 +289,21 @@ void measure_walls_cost(const BenchSetup& setup, Report& report) {
   for (const WallPicture& picture : pictures) eyes.push_back({picture.camera, pixels, pixels});
   // One view of as many pixels, through each of the walls in turn.
   const int side = int(std::lround(pixels * std::sqrt(double(eyes.size()))));
-  const auto seconds = [&](const std::function<void()>& draw) {
-    const auto began = std::chrono::steady_clock::now();
-    draw();
-    glFinish();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  };
   std::vector<double> of_walls, of_views, of_frames;
   for (int i = -1; i < repeats; ++i) {
-    const double walls = seconds([&] { must(stage->draw(eyes)); });
+    const double walls = finished_ms([&] { must(stage->draw(eyes)); });
     double views = 0.0;
     for (const render::EyeView& eye : eyes)
-      views += seconds([&] { stage->draw(eye.camera, side, side); }) / double(eyes.size());
-    const double frames = seconds([&] {
+      views += finished_ms([&] { stage->draw(eye.camera, side, side); }) / double(eyes.size());
+    const double frames = finished_ms([&] {
       for (const render::EyeView& eye : eyes) stage->draw(eye.camera, side, side);  // the control
     });
     if (i >= 0) of_walls.push_back(walls), of_views.push_back(views), of_frames.push_back(frames);
   }
   report.add("wall_cost_over_view", median(of_walls).value / median(of_views).value);
   report.add("wall_cost_over_view_of_whole_views", median(of_frames).value / median(of_views).value);
-  report.note(fmt::format("five walls {:.0f} ms, one view {:.0f} ms", 1e3 * median(of_walls).value,
-                          1e3 * median(of_views).value));
+  report.note(fmt::format("five walls {:.0f} ms, one view {:.0f} ms", median(of_walls).value,
+                          median(of_views).value));
 }
 
 void measure_walls_lock(const BenchSetup& setup, Report& report) {

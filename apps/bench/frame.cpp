@@ -8,15 +8,12 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "base/test_data.h"
 #include "bench/parts.h"
 #include "bench/reflections/judged_method.h"
 #include "bench/reflections/views.h"
-#include "formats/city_models/city_json.h"
 #include "graphics/render/test_culling_check.h"
 #include "graphics/render/test_room.h"
 #include "graphics/shading/tone_curve.h"
-#include "places/paper_city/paper_city.h"
 #include "reflections/probes/methods.h"
 
 namespace parvis::bench {
@@ -156,9 +153,8 @@ double flip_of(Mesh mirror, float radii, bool swaps_faces = false) {
   return flip_between(drawn, shading::tone_mapped_picture(truth.radiance, scene.exposure), truth.mirror_mask);
 }
 
-/// Times whole frames of each method in alternating order; the medians.
-std::vector<Median> frame_times(stage::Stage& stage, const Camera& camera, int cars, int repeats,
-                                Report& report) {
+/// Times whole frames of each method in alternating order.
+void time_frames(stage::Stage& stage, const Camera& camera, int cars, int repeats, Report& report) {
   const auto methods = judged_methods(stage, {{"none", usual("none")},
                                               {"rerendered", usual("rerendered_cube_map")},
                                               {"rerendered_lod", usual("rerendered_cube_map", true)},
@@ -171,12 +167,8 @@ std::vector<Median> frame_times(stage::Stage& stage, const Camera& camera, int c
       draw(stage, methods[m], camera, full_picture);  // makes what is made once
       samples[m].push_back(finished_ms([&] { draw_again(stage, methods[m], camera, full_picture); }));
     }
-  std::vector<Median> medians;
-  for (std::size_t m = 0; m < methods.size(); ++m) {
-    medians.push_back(median(samples[m]));
-    report.add(fmt::format("frame_ms_{}_{}", methods[m].name, cars), medians.back());
-  }
-  return medians;
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    report.add(fmt::format("frame_ms_{}_{}", methods[m].name, cars), median(samples[m]));
 }
 
 /// Cars that are hidden by what stands before them: how many are culled, and whether one is that has a pixel.
@@ -197,30 +189,16 @@ void measure_occlusion(stage::Stage& stage, std::size_t views, Report& report) {
 }  // namespace
 
 void measure_frames(const BenchSetup& setup, Report& report) {
-  report.add("city_generate_ms",
-             milliseconds([&] { must(city::write_paper_city(setup.folder / "timed", 1)); }));
   const scene::Scene city = setup.scene(setup.city() / "paper.xp");
   report.add("triangles", double(city.static_triangle_count()));
   keep_maps(city, usual("multiple_environment_maps"));
   for (const auto& [cars, minimum, maximum] : {std::tuple{15, 3, 5}, std::tuple{30, 10, 10}}) {
     const auto stage = stage_with(city, cars);
     const Camera camera = view_of_cars(*stage, minimum, maximum, full_picture, report);
-    const int seen = reflectors_seen(*stage, camera, full_picture);
-    const auto times = frame_times(*stage, camera, cars, setup.is_quick ? 7 : 21, report);
+    time_frames(*stage, camera, cars, setup.is_quick ? 7 : 21, report);
     if (cars < 30) continue;
-    report.add("rerendered_ms_per_car", (times[1].value - times[0].value) / std::max(seen, 1));
     measure_occlusion(*stage, setup.is_quick ? 80 : 400, report);
-    const Camera street = street_views(stage->scene(), 1, 1.6f, 0.0f, full_picture).front();
-    const reference::TracedPicture traced = stage->trace(street, 480, 270, 16);
-    report.add("reference_mrays_s", 1e-6 * double(traced.rays) / traced.seconds);
   }
-  const auto file = shared_data("cities/DenHaag_01.city.json", std::filesystem::current_path());
-  if (!file) return report.skip("load_ms_denhaag", "the shared data is absent");
-  std::vector<double> samples(5);
-  Errors warnings;
-  for (double& sample : samples)
-    sample = milliseconds([&] { must(scene::read_city_model(*file, warnings)); });
-  report.add("load_ms_denhaag", median(samples));
 }
 
 void measure_mirrors(const BenchSetup& /*setup*/, Report& report) {

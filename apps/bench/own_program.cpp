@@ -1,5 +1,9 @@
 #include "bench/own_program.h"
 
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -38,6 +42,25 @@ OwnRun run_own_program(const std::string& before, const std::vector<std::string>
                 });
   if (status != 0) fail("{}: it ended with status {}", command, status);
   return run;
+}
+
+int acknowledged_before_kill(int wanted, const std::function<void(const std::function<bool()>&)>& work) {
+  int pipes[2];
+  if (pipe(pipes) != 0) fail("no pipe can be made");
+  const pid_t child = fork();
+  if (child == 0) {
+    work([&] { return write(pipes[1], "x", 1) == 1; });
+    _exit(1);
+  }
+  close(pipes[1]);
+  int acknowledged = 0;
+  char byte = 0;
+  while (acknowledged < wanted && read(pipes[0], &byte, 1) == 1) ++acknowledged;
+  kill(child, SIGKILL);
+  while (read(pipes[0], &byte, 1) == 1) ++acknowledged;
+  close(pipes[0]);
+  waitpid(child, nullptr, 0);
+  return acknowledged;
 }
 
 double number_after(const std::string& output, const std::string& text) {

@@ -7,10 +7,10 @@ namespace parvis::bench {
 
 using Measured = void(const BenchSetup& setup, Report& report);
 
-Measured measure_frames, measure_mirrors;                                             // frame.cpp
-Measured measure_processes, measure_window;                                           // commands.cpp
-Measured measure_reading, measure_scenarios, measure_photographs, measure_isolation;  // formats/reading.cpp
-Measured measure_place_files, measure_streets;                                        // formats/places.cpp
+Measured measure_frames, measure_mirrors;       // frame.cpp
+Measured measure_processes, measure_window;     // commands.cpp
+Measured measure_isolation;                     // formats/reading.cpp
+Measured measure_place_files, measure_streets;  // formats/places.cpp
 Measured measure_maps_memory, measure_placement, measure_maps_cost, measure_maps_near_cost,
     measure_maps_bodies, measure_maps_city_size, measure_maps_quality, measure_maps_traced,
     measure_maps_motion, measure_maps_budget, measure_maps_paper,

@@ -1,12 +1,10 @@
 // The planner's tool in the paper's city: what an insertion and a drag take and show, how exactly things
 // stand, undo, replay and kills.
 #include <epoxy/gl.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cmath>
 
+#include "bench/own_program.h"
 #include "bench/parts.h"
 #include "planning/design/preview.h"
 #include "planning/design/scene_surfaces.h"
@@ -326,27 +324,13 @@ void measure_kills(const BenchSetup& setup, Report& report) {
   int lost = 0, lost_without_journal = 0;
   for (int kills = 0; kills < (setup.is_quick ? 20 : 200); ++kills) {
     std::filesystem::remove(journal);
-    int pipes[2];
-    if (pipe(pipes) != 0) fail("no pipe can be made");
-    const pid_t child = fork();
-    if (child == 0) {
+    const int acknowledged = acknowledged_before_kill(1 + moments.index(200), [&](const auto& acknowledge) {
       stage::Simulation simulation = setup.simulation(script);
       Table table{simulation};
-      if (!table.session.keep_journal(journal)) _exit(1);
-      for (int i = 0;; ++i)
-        if (!table.session.run(fmt::format("insert bin {},{}", i % 100, i / 100)) ||
-            write(pipes[1], "x", 1) != 1)
-          _exit(1);
-    }
-    close(pipes[1]);
-    const int wanted = 1 + moments.index(200);
-    int acknowledged = 0;
-    char byte = 0;
-    while (acknowledged < wanted && read(pipes[0], &byte, 1) == 1) ++acknowledged;
-    kill(child, SIGKILL);
-    while (read(pipes[0], &byte, 1) == 1) ++acknowledged;
-    close(pipes[0]);
-    waitpid(child, nullptr, 0);
+      if (!table.session.keep_journal(journal)) return;
+      for (int i = 0; table.session.run(fmt::format("insert bin {},{}", i % 100, i / 100)); ++i)
+        if (!acknowledge()) return;
+    });
     stage::Simulation simulation = setup.simulation(script);
     Table table{simulation};
     lost_without_journal += acknowledged - int(table.session.objects().size());

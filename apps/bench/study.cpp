@@ -1,15 +1,12 @@
 // Studies: replay of an hour, kills of the program that writes the log, scores and orders against cases that
 // others have computed, XDF read by a reader that is not ours.
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/random.h"
 #include "base/test_data.h"
+#include "bench/own_program.h"
 #include "bench/parts.h"
 #include "planning/study/performance.h"
 #include "planning/study/statistics.h"
@@ -67,25 +64,14 @@ bool is_replayed(const study::Study& study, const std::vector<study::Part>& part
 int lost_events(const std::filesystem::path& file, int wanted, bool flushes) {
   std::filesystem::remove(file);
   must(study::Log::open(file));
-  int pipes[2];
-  if (pipe(pipes) != 0) fail("no pipe can be made");
-  const pid_t child = fork();
-  if (child == 0) {
+  const int acknowledged = acknowledged_before_kill(wanted, [&](const auto& acknowledge) {
     Result<study::Log> log = study::Log::open(file);
-    if (!log || !log->begin({0, "P1", "s", "", 0, 0.0})) _exit(1);
+    if (!log || !log->begin({0, "P1", "s", "", 0, 0.0})) return;
     for (int i = 0;; ++i) {
       log->add(study::Event{i, "command", "insert bin 1,1"});
-      if ((flushes && !log->flush()) || write(pipes[1], "x", 1) != 1) _exit(1);
+      if ((flushes && !log->flush()) || !acknowledge()) return;
     }
-  }
-  close(pipes[1]);
-  int acknowledged = 0;
-  char byte = 0;
-  while (acknowledged < wanted && read(pipes[0], &byte, 1) == 1) ++acknowledged;
-  kill(child, SIGKILL);
-  while (read(pipes[0], &byte, 1) == 1) ++acknowledged;
-  close(pipes[0]);
-  waitpid(child, nullptr, 0);
+  });
   if (acknowledged < wanted) fail("the program that writes the log ended by itself");
   study::Log log = must(study::Log::read(file));
   return std::max(0, acknowledged - int(must(log.records((*must(log.session_of("P1"))).id)).size()));

@@ -1,7 +1,6 @@
 // Points and lines of grown plants against their real geometry, and what they cost.
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
@@ -27,6 +26,8 @@
 namespace parvis::bench {
 namespace {
 
+using vegetation::PlantDetail, vegetation::PlantSelection;
+
 /// The drawable of all plants, which counts what it draws in each view of a frame: the main one and those of
 /// shadow maps.
 class CountedPlants final : public render::Drawable {
@@ -41,19 +42,45 @@ class CountedPlants final : public render::Drawable {
 
   explicit CountedPlants(std::unique_ptr<render::Drawable> plants) : plants_drawn_(std::move(plants)) {}
 
-  void update(const scene::Scene& scene) override;
+  void update(const scene::Scene& scene) override {
+    plants_drawn_->update(scene);
+    if (!is_counting_) return;
+    detail_ = scene.data<PlantDetail>();
+    const auto& shadows = scene.data<scene::SunShadows>();
+    const std::vector<int>& makers = scene.data<vegetation::ScenePlants>().makers;
+    plants_.clear();
+    for (const vegetation::ScenePlant& plant : vegetation::scene_plants(scene)) {
+      const std::size_t number = plants_.size();
+      plants_.push_back(vegetation::placed(plant, int(scene.objects.size() + number)));
+      plants_.back().casts_shadow = shadows.casts_item_of(makers[number]);
+    }
+  }
   render::Extents extents() const override { return plants_drawn_->extents(); }
   std::span<render::QualityWish> quality_wishes(const render::View& view,
                                                 const render::Culling& culling) override {
     return plants_drawn_->quality_wishes(view, culling);
   }
   void prepare(const render::View& view, const render::Culling& culling) override;
-  void draw(const render::View& view, render::Pass pass) override;
+  void draw(const render::View& view, render::Pass pass) override {
+    // The main view is drawn after others that were prepared later.
+    const auto counted = std::ranges::find(views_.rbegin(), views_.rend(), view.kind, &View::kind);
+    if (counted == views_.rend()) return plants_drawn_->draw(view, pass);
+    const gl::Query primitives = gl::Query::create(GLenum(GL_PRIMITIVES_GENERATED));
+    glBeginQuery(GL_PRIMITIVES_GENERATED, primitives.name());
+    plants_drawn_->draw(view, pass);
+    glEndQuery(GL_PRIMITIVES_GENERATED);
+    GLuint64 count = 0;
+    glGetQueryObjectui64v(primitives.name(), GL_QUERY_RESULT, &count);
+    counted->drawn += std::size_t(count);
+  }
 
   /// Counts from now on.
   void begin() { is_counting_ = true; }
   /// The views since `begin`; counts no more, so that frames which are timed take no time for it.
-  std::vector<View> end();
+  std::vector<View> end() {
+    is_counting_ = false;
+    return std::exchange(views_, {});
+  }
 
  private:
   std::unique_ptr<render::Drawable> plants_drawn_;
@@ -67,55 +94,7 @@ class CountedPlants final : public render::Drawable {
 /// Angle by which the sun turns in a minute.
 inline constexpr float minute_of_sun_deg = 0.25f;
 
-/// 200 oaks of a million triangles each, of four shapes, in ten rows.
-class Grove {
- public:
-  static constexpr int width = 640, height = 360;
-  static constexpr int rows = 10, columns = 20;
-
-  /// Fails if the oaks have fewer triangles, or if the renderer does. Needs a current OpenGL context.
-  static std::unique_ptr<Grove> create(Report& report);
-  Grove(const Grove&) = delete;
-
-  /// Shows the rows of trees that are nearest to the lawn: the real geometry of all takes minutes.
-  void show_rows(int shown);
-  /// Shows one tree alone, and returns the middle of its crown.
-  glm::vec3 show_one();
-  /// Whether trees cast shadows, as they do at first.
-  void let_cast(bool cast);
-  /// Turns the sun about the vertical, so that the next frame draws its shadow maps again.
-  void turn_sun(float degrees);
-
-  /// A frame as it ships, or in some detail with `scale` times the pixels of a picture, across and down.
-  void draw(const Camera& camera, const vegetation::PlantDetail& detail = {}, int scale = 1);
-  /// The picture of such a frame.
-  Image8 picture(const Camera& camera, const vegetation::PlantDetail& detail = {});
-  /// The real geometry, whose pixels are the mean of many samples: leaves are smaller than pixels, and the
-  /// few samples that a picture has of each show which of them they hit, not what a crown looks like.
-  Image8 true_picture(const Camera& camera);
-  /// Samples of a true picture over those of a picture, across and down.
-  static constexpr int supersample = 4;
-
-  /// Primitives that the main view of a camera would draw in some detail; nothing is drawn.
-  CountedPlants::View chosen(const Camera& camera, const vegetation::PlantDetail& detail) const;
-  /// The detail by which a picture of `camera` shows plants as if its resolution were smaller by `scale`, at
-  /// most 1: the largest budget that is kept by no larger a factor.
-  vegetation::PlantDetail detail_at(const Camera& camera, float scale) const;
-  /// Primitives of all views of a frame whose shadow maps are drawn again, the sun having moved. Fails where
-  /// one of them draws other primitives than it has chosen.
-  std::vector<CountedPlants::View> counted(const Camera& camera);
-
- private:
-  Grove() = default;
-
-  scene::Scene scene_;
-  CountedPlants* plants_ = nullptr;  ///< the renderer's
-  std::unique_ptr<render::Renderer> renderer_;
-};
-
-using vegetation::PlantDetail, vegetation::PlantSelection;
-
-constexpr int shapes = 4;
+constexpr int rows = 10, columns = 20, shapes = 4;
 constexpr float spacing_m = 11.0f;
 constexpr std::size_t min_triangles = 1'000'000;  // of an oak
 
@@ -133,37 +112,21 @@ scene::Scene make_scene(Report& report) {
   const vegetation::PlantKind* oak = vegetation::find_kind("oak");
   Random random(12);
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
-  for (int i = 0; i < Grove::rows * Grove::columns; ++i) {
+  for (int i = 0; i < rows * columns; ++i) {
     auto shape = must(vegetation::shared_plant(scene.data<vegetation::PlantCache>(),
                                                {oak, oak->height_m, 0.0f, std::uint64_t(1 + i % shapes)}));
     fewest = std::min(fewest, shape->triangle_count());
-    const int row = i / Grove::columns;
-    const glm::vec3 foot(spacing_m * (float(i % Grove::columns) - 9.5f) + random.uniform(-2.0f, 2.0f),
+    const int row = i / columns;
+    const glm::vec3 foot(spacing_m * (float(i % columns) - 9.5f) + random.uniform(-2.0f, 2.0f),
                          spacing_m * float(row + 1) + random.uniform(-2.0f, 2.0f), 0.0f);
     const glm::mat4 world_from_plant =
         glm::rotate(glm::translate(glm::mat4(1.0f), foot), random.uniform(0.0f, 6.28f), glm::vec3(0, 0, 1));
     scene.data<vegetation::ScenePlants>().add({shape, world_from_plant, true}, i);
   }
-  report.note(fmt::format("{} oaks of {} triangles at least, {} shapes", Grove::rows * Grove::columns, fewest,
-                          shapes));
+  report.note(fmt::format("{} oaks of {} triangles at least, {} shapes", rows * columns, fewest, shapes));
   if (fewest < min_triangles) fail("the oaks have {} triangles, not a million", fewest);
   return scene;
 }
-
-void CountedPlants::update(const scene::Scene& scene) {
-  plants_drawn_->update(scene);
-  if (!is_counting_) return;
-  detail_ = scene.data<PlantDetail>();
-  const auto& shadows = scene.data<scene::SunShadows>();
-  const std::vector<int>& makers = scene.data<vegetation::ScenePlants>().makers;
-  plants_.clear();
-  for (const vegetation::ScenePlant& plant : vegetation::scene_plants(scene)) {
-    const std::size_t number = plants_.size();
-    plants_.push_back(vegetation::placed(plant, int(scene.objects.size() + number)));
-    plants_.back().casts_shadow = shadows.casts_item_of(makers[number]);
-  }
-}
-
 void CountedPlants::prepare(const render::View& view, const render::Culling& culling) {
   plants_drawn_->prepare(view, culling);
   if (!is_counting_) return;
@@ -171,124 +134,128 @@ void CountedPlants::prepare(const render::View& view, const render::Culling& cul
   selection_.choose(plants_, view, culling, detail_);
   views_.push_back({view.kind, selection_.statistics(), selection_.scale()});
 }
+/// 200 oaks of a million triangles each, of four shapes, in ten rows.
+class Grove {
+ public:
+  static constexpr int width = 640, height = 360;
 
-void CountedPlants::draw(const render::View& view, render::Pass pass) {
-  // The main view is drawn after others that were prepared later.
-  const auto counted = std::ranges::find(views_.rbegin(), views_.rend(), view.kind, &View::kind);
-  if (counted == views_.rend()) return plants_drawn_->draw(view, pass);
-  const gl::Query primitives = gl::Query::create(GLenum(GL_PRIMITIVES_GENERATED));
-  glBeginQuery(GL_PRIMITIVES_GENERATED, primitives.name());
-  plants_drawn_->draw(view, pass);
-  glEndQuery(GL_PRIMITIVES_GENERATED);
-  GLuint64 count = 0;
-  glGetQueryObjectui64v(primitives.name(), GL_QUERY_RESULT, &count);
-  counted->drawn += std::size_t(count);
-}
-
-std::vector<CountedPlants::View> CountedPlants::end() {
-  is_counting_ = false;
-  return std::exchange(views_, {});
-}
-
-std::unique_ptr<Grove> Grove::create(Report& report) {
-  scene::Scene scene = make_scene(report);
-  std::unique_ptr<Grove> grove(new Grove());
-  grove->scene_ = std::move(scene);
-  render::Drawables drawables;
-  render::DrawableKind kind = vegetation::scene_plants_kind();
-  kind.make = [make = kind.make, plants = &grove->plants_](
-                  const scene::Scene& of, int first_thing) -> Result<std::unique_ptr<render::Drawable>> {
-    Result<std::unique_ptr<render::Drawable>> made = make(of, first_thing);
-    if (!made) return made;
-    auto counted = std::make_unique<CountedPlants>(*std::move(made));
-    *plants = counted.get();
-    return std::unique_ptr<render::Drawable>(std::move(counted));
-  };
-  drawables.add(std::move(kind));
-  drawables.attach(grove->scene_);
-  grove->renderer_ = must(
-      render::Renderer::create(grove->scene_, drawables, rooms::all_registries().get<render::Lights>().make));
-  return grove;
-}
-
-void Grove::show_rows(int shown) {
-  int number = 0;
-  for (vegetation::ScenePlant& plant : scene_.data<vegetation::ScenePlants>().items)
-    plant.is_visible = number++ < shown * columns;
-}
-
-glm::vec3 Grove::show_one() {
-  show_rows(0);
-  vegetation::ScenePlant& plant = scene_.data<vegetation::ScenePlants>().items.front();
-  plant.is_visible = true;
-  Bounds crown;
-  for (const vegetation::LeafCluster& cluster : plant.shape->clusters) crown.add(cluster.bounds);
-  return transformed(plant.world_from_plant, crown).centre();
-}
-
-void Grove::let_cast(bool cast) {
-  constexpr int no_node = -1;
-  auto& casters = scene_.data<scene::SunShadows>().caster_nodes;
-  casters.clear();  // of none: all cast
-  if (!cast) casters.push_back({no_node, no_node});
-  turn_sun(minute_of_sun_deg);
-}
-
-void Grove::turn_sun(float degrees) {
-  glm::vec3& to_sun = scene_.sun.direction_to_sun;
-  to_sun = glm::vec3(glm::rotate(glm::mat4(1.0f), glm::radians(degrees), glm::vec3(0, 0, 1)) *
-                     glm::vec4(to_sun, 0.0f));
-}
-
-void Grove::draw(const Camera& camera, const PlantDetail& detail, int scale) {
-  scene_.data<PlantDetail>() = detail;
-  const Status status = render::draw_frame(*renderer_, scene_, {camera, scale * width, scale * height});
-  scene_.data<PlantDetail>() = {};
-  must(status);
-}
-
-Image8 Grove::picture(const Camera& camera, const PlantDetail& detail) {
-  draw(camera, detail);
-  return renderer_->read_picture(scene_.exposure);
-}
-
-Image8 Grove::true_picture(const Camera& camera) {
-  draw(camera, {.is_full = true}, supersample);
-  return shading::tone_mapped_picture(reduced(renderer_->read_radiance(), supersample), scene_.exposure);
-}
-
-std::vector<CountedPlants::View> Grove::counted(const Camera& camera) {
-  turn_sun(minute_of_sun_deg);
-  plants_->begin();
-  draw(camera);
-  std::vector<CountedPlants::View> views = plants_->end();
-  for (const CountedPlants::View& view : views)
-    if (view.drawn != view.chosen.all())
-      fail("a view draws {} primitives of plants, and has chosen {}", view.drawn, view.chosen.all());
-  return views;
-}
-
-vegetation::PlantDetail Grove::detail_at(const Camera& camera, float scale) const {
-  constexpr int no_budget = 1 << 30;
-  vegetation::PlantDetail few, many;
-  few.max_primitives = 1, many.max_primitives = no_budget;
-  while (many.max_primitives - few.max_primitives > 1) {
-    vegetation::PlantDetail middle;
-    middle.max_primitives = few.max_primitives + (many.max_primitives - few.max_primitives) / 2;
-    (chosen(camera, middle).scale <= scale ? few : many) = middle;
+  /// Fails if the oaks have fewer triangles, or if the renderer does. Needs a current OpenGL context.
+  static std::unique_ptr<Grove> create(Report& report) {
+    scene::Scene scene = make_scene(report);
+    std::unique_ptr<Grove> grove(new Grove());
+    grove->scene_ = std::move(scene);
+    render::Drawables drawables;
+    render::DrawableKind kind = vegetation::scene_plants_kind();
+    kind.make = [make = kind.make, plants = &grove->plants_](
+                    const scene::Scene& of, int first_thing) -> Result<std::unique_ptr<render::Drawable>> {
+      Result<std::unique_ptr<render::Drawable>> made = make(of, first_thing);
+      if (!made) return made;
+      auto counted = std::make_unique<CountedPlants>(*std::move(made));
+      *plants = counted.get();
+      return std::unique_ptr<render::Drawable>(std::move(counted));
+    };
+    drawables.add(std::move(kind));
+    drawables.attach(grove->scene_);
+    grove->renderer_ = must(render::Renderer::create(grove->scene_, drawables,
+                                                     rooms::all_registries().get<render::Lights>().make));
+    return grove;
   }
-  return few;
-}
+  Grove(const Grove&) = delete;
 
-CountedPlants::View Grove::chosen(const Camera& camera, const PlantDetail& detail) const {
-  const render::View view = render::camera_view(camera, 0, width, height);
-  std::vector<vegetation::PlacedPlant> plants;
-  for (const vegetation::ScenePlant& plant : vegetation::scene_plants(scene_))
-    plants.push_back(vegetation::placed(plant, int(scene_.objects.size() + plants.size())));
-  PlantSelection selection;
-  selection.choose(plants, view, render::Culling(view, nullptr), detail);
-  return {view.kind, selection.statistics(), selection.scale()};
-}
+  /// Shows the rows of trees that are nearest to the lawn: the real geometry of all takes minutes.
+  void show_rows(int shown) {
+    int number = 0;
+    for (vegetation::ScenePlant& plant : scene_.data<vegetation::ScenePlants>().items)
+      plant.is_visible = number++ < shown * columns;
+  }
+  /// Shows one tree alone, and returns the middle of its crown.
+  glm::vec3 show_one() {
+    show_rows(0);
+    vegetation::ScenePlant& plant = scene_.data<vegetation::ScenePlants>().items.front();
+    plant.is_visible = true;
+    Bounds crown;
+    for (const vegetation::LeafCluster& cluster : plant.shape->clusters) crown.add(cluster.bounds);
+    return transformed(plant.world_from_plant, crown).centre();
+  }
+  /// Whether trees cast shadows, as they do at first.
+  void let_cast(bool cast) {
+    constexpr int no_node = -1;
+    auto& casters = scene_.data<scene::SunShadows>().caster_nodes;
+    casters.clear();  // of none: all cast
+    if (!cast) casters.push_back({no_node, no_node});
+    turn_sun(minute_of_sun_deg);
+  }
+  /// Turns the sun about the vertical, so that the next frame draws its shadow maps again.
+  void turn_sun(float degrees) {
+    glm::vec3& to_sun = scene_.sun.direction_to_sun;
+    to_sun = glm::vec3(glm::rotate(glm::mat4(1.0f), glm::radians(degrees), glm::vec3(0, 0, 1)) *
+                       glm::vec4(to_sun, 0.0f));
+  }
+
+  /// A frame as it ships, or in some detail with `scale` times the pixels of a picture, across and down.
+  void draw(const Camera& camera, const vegetation::PlantDetail& detail = {}, int scale = 1) {
+    scene_.data<PlantDetail>() = detail;
+    const Status status = render::draw_frame(*renderer_, scene_, {camera, scale * width, scale * height});
+    scene_.data<PlantDetail>() = {};
+    must(status);
+  }
+  /// The picture of such a frame.
+  Image8 picture(const Camera& camera, const vegetation::PlantDetail& detail = {}) {
+    draw(camera, detail);
+    return renderer_->read_picture(scene_.exposure);
+  }
+  /// The real geometry, whose pixels are the mean of many samples: leaves are smaller than pixels, and the
+  /// few samples that a picture has of each show which of them they hit, not what a crown looks like.
+  Image8 true_picture(const Camera& camera) {
+    draw(camera, {.is_full = true}, supersample);
+    return shading::tone_mapped_picture(reduced(renderer_->read_radiance(), supersample), scene_.exposure);
+  }
+  /// Samples of a true picture over those of a picture, across and down.
+  static constexpr int supersample = 4;
+
+  /// Primitives that the main view of a camera would draw in some detail; nothing is drawn.
+  CountedPlants::View chosen(const Camera& camera, const vegetation::PlantDetail& detail) const {
+    const render::View view = render::camera_view(camera, 0, width, height);
+    std::vector<vegetation::PlacedPlant> plants;
+    for (const vegetation::ScenePlant& plant : vegetation::scene_plants(scene_))
+      plants.push_back(vegetation::placed(plant, int(scene_.objects.size() + plants.size())));
+    PlantSelection selection;
+    selection.choose(plants, view, render::Culling(view, nullptr), detail);
+    return {view.kind, selection.statistics(), selection.scale()};
+  }
+  /// The detail by which a picture of `camera` shows plants as if its resolution were smaller by `scale`, at
+  /// most 1: the largest budget that is kept by no larger a factor.
+  vegetation::PlantDetail detail_at(const Camera& camera, float scale) const {
+    constexpr int no_budget = 1 << 30;
+    vegetation::PlantDetail few, many;
+    few.max_primitives = 1, many.max_primitives = no_budget;
+    while (many.max_primitives - few.max_primitives > 1) {
+      vegetation::PlantDetail middle;
+      middle.max_primitives = few.max_primitives + (many.max_primitives - few.max_primitives) / 2;
+      (chosen(camera, middle).scale <= scale ? few : many) = middle;
+    }
+    return few;
+  }
+  /// Primitives of all views of a frame whose shadow maps are drawn again, the sun having moved. Fails where
+  /// one of them draws other primitives than it has chosen.
+  std::vector<CountedPlants::View> counted(const Camera& camera) {
+    turn_sun(minute_of_sun_deg);
+    plants_->begin();
+    draw(camera);
+    std::vector<CountedPlants::View> views = plants_->end();
+    for (const CountedPlants::View& view : views)
+      if (view.drawn != view.chosen.all())
+        fail("a view draws {} primitives of plants, and has chosen {}", view.drawn, view.chosen.all());
+    return views;
+  }
+
+ private:
+  Grove() = default;
+
+  scene::Scene scene_;
+  CountedPlants* plants_ = nullptr;  ///< the renderer's
+  std::unique_ptr<render::Renderer> renderer_;
+};
 
 /// A step of a viewer: a fiftieth of the way to the tree, as a walker's in a tenth of a second from seven
 /// metres.
@@ -363,7 +330,7 @@ void measure_approach(bool is_quick, Grove& grove, Report& report) {
     steps.push_back({now, grove.chosen(now, {}).scale, before(nearer), before(nearer_at_once)});
   }
   const Pops pops = largest_pops(grove, steps);
-  grove.show_rows(Grove::rows);
+  grove.show_rows(rows);
   if (!(pops.flip > 0.0)) fail("no form of the tree changes from {} m to {} m", farthest_m, nearest_m);
   report.add("vegetation_pop_flip", pops.flip);
   report.add("vegetation_pop_flip_without_blending", pops.at_once);
@@ -404,12 +371,7 @@ void measure_pops(const BenchSetup& setup, Grove& grove, Report& report) {
   measure_turning(setup.is_quick, grove, report);
 }
 
-using vegetation::PlantDetail;
-
 constexpr float closer = 0.4f;  // of a view's angle
-
-/// More than there are: what a view would draw without a budget.
-constexpr int no_budget = 2'000'000'000;
 
 /// Views under the first trees, from the lawn before all of them, and from above.
 std::vector<Camera> grove_views() {
@@ -421,59 +383,36 @@ std::vector<Camera> grove_views() {
   return cameras;
 }
 
-/// Frames while the viewer walks on.
-struct FrameTimes {
-  std::vector<double> ms;  ///< of each frame
-  double cpu_ms = 0.0;     ///< of all cores, per frame
-};
-
-/// Times of frames. With `is_day_passing` the sun moves from frame to frame, and each draws its shadow maps
-/// again; else they are kept, but for what the viewer's way asks for.
-FrameTimes frame_times(Grove& grove, Camera camera, int frames, bool is_day_passing) {
-  const int to_begin = is_day_passing ? 1 : 2;  // draw what is kept
-  FrameTimes times;
-  std::clock_t before = 0;
-  for (int i = 0; i < frames + to_begin; ++i) {
+/// Times of frames under a sun that moves from frame to frame, so that each draws its shadow maps again.
+std::vector<double> frame_times(Grove& grove, Camera camera, int frames) {
+  std::vector<double> times_ms;
+  for (int i = 0; i <= frames; ++i) {
     camera.world_from_camera =
         glm::translate(glm::mat4(1.0f), {0.02f, 0.02f, 0.0f}) * camera.world_from_camera;
-    if (is_day_passing) grove.turn_sun(minute_of_sun_deg);
-    if (i == to_begin) before = std::clock();
+    grove.turn_sun(minute_of_sun_deg);
     const double ms = milliseconds([&] {
       grove.draw(camera);
       glFinish();
     });
-    if (i >= to_begin) times.ms.push_back(ms);
+    if (i > 0) times_ms.push_back(ms);
   }
-  times.cpu_ms = 1e3 * double(std::clock() - before) / CLOCKS_PER_SEC / double(frames);
-  return times;
+  return times_ms;
 }
 
 /// Costs of the views of the grove: the slowest frames, the largest counts.
 struct Cost {
-  std::vector<double> slowest_ms, slowest_kept_ms;
-  double in_view = 0.0;                                 ///< primitives
-  double without_budget = 0.0, of_real_geometry = 0.0;  ///< in a main view
-  double min_scale = 1.0;                               ///< by which a budget was kept
+  std::vector<double> slowest_ms;
+  double in_view = 0.0, of_real_geometry = 0.0;  ///< primitives; those of the real geometry in a main view
 
   void add(Grove& grove, const Camera& camera, int frames, const std::string& name, Report& report) {
-    const auto passing = frame_times(grove, camera, frames, true),
-               kept = frame_times(grove, camera, frames, false);
-    const auto keep_slower = [](std::vector<double>& slowest, const std::vector<double>& ms) {
-      if (slowest.empty() || median(ms).value > median(slowest).value) slowest = ms;
-    };
-    keep_slower(slowest_ms, passing.ms), keep_slower(slowest_kept_ms, kept.ms);
-    return count(grove, camera, name, report);
-  }
-
- private:
-  void count(Grove& grove, const Camera& camera, const std::string& name, Report& report) {
+    const std::vector<double> ms = frame_times(grove, camera, frames);
+    if (slowest_ms.empty() || median(ms).value > median(slowest_ms).value) slowest_ms = ms;
     const auto views = grove.counted(camera);
     long main_views = 0, shadow_views = 0;
     for (const CountedPlants::View& view : views) {
       const bool is_shadow = view.kind == render::ViewKind::shadow;
       ++(is_shadow ? shadow_views : main_views);
       in_view = std::max(in_view, double(view.drawn));
-      min_scale = std::min(min_scale, double(view.scale));
       report.note(fmt::format(
           "{}, {}: {} triangles, {} points, {} lines{}", name, is_shadow ? "a shadow map" : "the view itself",
           view.chosen.triangles, view.chosen.points, view.chosen.lines,
@@ -483,9 +422,6 @@ struct Cost {
     if (main_views != 1 || shadow_views == 0)
       fail("{}: a frame under a new sun has drawn {} main and {} shadow views", name, main_views,
            shadow_views);
-    PlantDetail unlimited;
-    unlimited.max_primitives = no_budget;
-    without_budget = std::max(without_budget, double(grove.chosen(camera, unlimited).chosen.all()));
     of_real_geometry =
         std::max(of_real_geometry, double(grove.chosen(camera, {.is_full = true}).chosen.all()));
   }
@@ -494,15 +430,14 @@ struct Cost {
 /// Pictures of the grove against its real geometry.
 struct Quality {
   double flip = 0.0, flip_thin = 0.0;  ///< the largest; area not kept
-  double flip_full = 0.0;              ///< of the real geometry at the samples that pictures have
   double flip_bare = 1e9;              ///< the smallest of a lawn without trees
   std::vector<double> full_ms;         ///< what the real geometry took
 
   /// Adds the figures of so many rows of trees, in the forms that the view has of all of them.
-  void add(Grove& grove, const Camera& camera, int rows, const std::string& name, Report& report) {
+  void add(Grove& grove, const Camera& camera, int shown, const std::string& name, Report& report) {
     const float scale_of_all = grove.chosen(camera, {}).scale;
-    grove.show_rows(rows);
-    const PlantDetail as_shipped = rows < Grove::rows ? grove.detail_at(camera, scale_of_all) : PlantDetail();
+    grove.show_rows(shown);
+    const PlantDetail as_shipped = shown < rows ? grove.detail_at(camera, scale_of_all) : PlantDetail();
     PlantDetail without_area = as_shipped;
     without_area.keeps_area = false;
     const Image8 truth = grove.true_picture(camera);
@@ -513,9 +448,9 @@ struct Quality {
                  thin = flip_of(grove.picture(camera, without_area));
     grove.show_rows(0);
     const double bare = flip_of(grove.picture(camera));
-    grove.show_rows(Grove::rows);
+    grove.show_rows(rows);
     flip = std::max(flip, shipped), flip_thin = std::max(flip_thin, thin);
-    flip_full = std::max(flip_full, full), flip_bare = std::min(flip_bare, bare);
+    flip_bare = std::min(flip_bare, bare);
     report.note(fmt::format("{}: FLIP {:.4f}, area not kept {:.4f}; real geometry: {:.4f}, in {:.1f} s", name,
                             shipped, thin, full, full_ms.back() / 1e3));
   }
@@ -540,22 +475,18 @@ void measure_vegetation(const BenchSetup& setup, Report& report) {
       if (is_left_out) continue;
       const std::string name = fmt::format("view {} at {} of its angle", v, part_of_angle);
       cost.add(grove, camera, setup.is_quick ? 5 : 15, name, report);
-      quality.add(grove, camera, setup.is_quick ? quick_rows : Grove::rows, name, report);
+      quality.add(grove, camera, setup.is_quick ? quick_rows : rows, name, report);
     }
   if (!(quality.flip_bare > 0.05))
     fail("a lawn without trees has a FLIP of {}: the trees are not drawn", quality.flip_bare);
   const Median frame = median(cost.slowest_ms);
   report.add("vegetation_fps_200_trees_1m_triangles",
              Median{1e3 / frame.value, 1e3 / frame.high, 1e3 / frame.low});
-  report.add("vegetation_fps_while_shadow_maps_are_kept", 1e3 / median(cost.slowest_kept_ms).value);
   report.add("vegetation_fps_real_geometry_control", 1e3 / median(quality.full_ms).value);
   report.add("vegetation_primitives", cost.in_view);
   report.add("vegetation_primitives_real_geometry_control", cost.of_real_geometry);
-  report.add("vegetation_primitives_without_a_budget", cost.without_budget);
-  report.add("vegetation_budget_scale", cost.min_scale);
   report.add("vegetation_flip", quality.flip);
   report.add("vegetation_flip_area_not_kept_control", quality.flip_thin);
-  report.add("vegetation_flip_of_real_geometry", quality.flip_full);
   report.add("vegetation_flip_without_trees_control", quality.flip_bare);
   measure_pops(setup, grove, report);
 }

@@ -70,37 +70,6 @@ struct ReflectedPointErrors {
 using PatchSearch =
     std::function<MapSearch::PatchPoint(MapSearch& search, const MapSearch::ReflectionTask& task, int layer)>;
 
-/// Compares, at sampled pixels of a view, what mirror rays hit with where the search shows it.
-class ReflectedPoints {
- public:
-  /// Makes the maps of all mirrors of a scene, as the renderer does; `scene` stays where it is.
-  static ReflectedPoints make(const scene::Scene& scene);
-
-  /// Errors in `count` random pixels that show mirrors which show the scene: pixels between where the fine
-  /// mesh, with interpolated normals, mirrors a point and where the search finds it mirrored.
-  ReflectedPointErrors errors(const Camera& camera, glm::ivec2 size, std::size_t count,
-                              const PatchSearch& search) const;
-
- private:
-  /// A mirror's maps, and the fine mesh of each patch.
-  struct Mirror {
-    reflector_maps::Reflector reflector;
-    std::vector<std::unique_ptr<reflector_maps::SurfaceRays>> patches;
-  };
-  /// Adds the errors of one pixel, where its mirror shows the scene.
-  void judge(const Mirror& mirror, const scene::Object& object, const Camera& camera,
-             const glm::mat4& pixel_from_world, glm::vec3 direction, const PatchSearch& search,
-             ReflectedPointErrors& errors) const;
-  /// Is a point that a search has found shown by the patch, seen by the viewer, and wrong? The patch's own
-  /// mesh says so; what the search finds beyond it belongs to another patch, and is not drawn.
-  static bool is_extra(const Mirror& mirror, std::size_t patch, const MapSearch::ReflectionPoint& point,
-                       const MapSearch::ReflectionTask& task);
-
-  const scene::Scene* scene_ = nullptr;
-  std::unique_ptr<reference::RayScene> rays_;
-  std::unordered_map<const scene::Model*, Mirror> mirrors_;
-};
-
 using namespace reflection_search;
 using namespace reflector_maps;
 
@@ -113,22 +82,110 @@ glm::vec2 pixel_of(const glm::mat4& pixel_from_world, glm::vec3 point) {
   const glm::vec4 p = pixel_from_world * glm::vec4(point, 1.0f);
   return glm::vec2(p) / p.w;
 }
-
-ReflectedPoints ReflectedPoints::make(const scene::Scene& scene) {
-  ReflectedPoints made;
-  made.scene_ = &scene;
-  made.rays_ = std::make_unique<reference::RayScene>(scene);
-  const ReflectorCache cache(scene);
-  for (const scene::Object& object : scene.objects) {
-    if (!object.takes_reflection || made.mirrors_.contains(object.model.get())) continue;
-    Reflector reflector = must(cache.reflector(mirror_source(scene, object)));
-    Mirror& mirror = made.mirrors_[object.model.get()];
-    mirror.reflector = std::move(reflector);
-    for (const ReflectorPatch& patch : mirror.reflector.patches)
-      mirror.patches.push_back(std::make_unique<SurfaceRays>(mirror.reflector.mesh, patch.triangles));
+/// Compares, at sampled pixels of a view, what mirror rays hit with where the search shows it.
+class ReflectedPoints {
+ public:
+  /// Makes the maps of all mirrors of a scene, as the renderer does; `scene` stays where it is.
+  static ReflectedPoints make(const scene::Scene& scene) {
+    ReflectedPoints made;
+    made.scene_ = &scene;
+    made.rays_ = std::make_unique<reference::RayScene>(scene);
+    const ReflectorCache cache(scene);
+    for (const scene::Object& object : scene.objects) {
+      if (!object.takes_reflection || made.mirrors_.contains(object.model.get())) continue;
+      Reflector reflector = must(cache.reflector(mirror_source(scene, object)));
+      Mirror& mirror = made.mirrors_[object.model.get()];
+      mirror.reflector = std::move(reflector);
+      for (const ReflectorPatch& patch : mirror.reflector.patches)
+        mirror.patches.push_back(std::make_unique<SurfaceRays>(mirror.reflector.mesh, patch.triangles));
+    }
+    return made;
   }
-  return made;
-}
+
+  /// Errors in `count` random pixels that show mirrors which show the scene: pixels between where the fine
+  /// mesh, with interpolated normals, mirrors a point and where the search finds it mirrored.
+  ReflectedPointErrors errors(const Camera& camera, glm::ivec2 size, std::size_t count,
+                              const PatchSearch& search) const {
+    const glm::mat4 clip_from_world =
+        camera.clip_from_camera(float(size.x) / float(size.y)) * camera.camera_from_world();
+    const glm::mat4 pixel_from_world =
+        glm::scale(glm::mat4(1.0f), {0.5f * float(size.x), 0.5f * float(size.y), 1.0f}) * clip_from_world;
+    Random random(3);
+    ReflectedPointErrors errors;
+    for (std::size_t i = 0; errors.px.size() < count + errors.extra && i < max_tries * count; ++i) {
+      const glm::vec2 pixel(random.uniform(0.0f, float(size.x)), random.uniform(0.0f, float(size.y)));
+      const reference::Ray ray = reference::camera_ray(camera, size.x, size.y, pixel);
+      const auto hit = rays_->nearest_hit(ray);
+      if (!hit || !hit->place->is_mirror) continue;
+      const scene::Object& object = scene_->objects[std::size_t(hit->place->object)];
+      judge(mirrors_.at(object.model.get()), object, camera, pixel_from_world, ray.direction, search, errors);
+    }
+    return errors;
+  }
+
+ private:
+  /// A mirror's maps, and the fine mesh of each patch.
+  struct Mirror {
+    reflector_maps::Reflector reflector;
+    std::vector<std::unique_ptr<reflector_maps::SurfaceRays>> patches;
+  };
+  /// Adds the errors of one pixel, where its mirror shows the scene.
+  void judge(const Mirror& mirror, const scene::Object& object, const Camera& camera,
+             const glm::mat4& pixel_from_world, glm::vec3 direction, const PatchSearch& search_patch,
+             ReflectedPointErrors& errors) const {
+    const glm::mat4 world_from_reflector = object.world_from_model,
+                    reflector_from_world = glm::inverse(world_from_reflector);
+    const glm::vec3 eye = reflector_from_world * glm::vec4(camera.position_in_world(), 1.0f),
+                    along = glm::normalize(glm::vec3(reflector_from_world * glm::vec4(direction, 0.0f)));
+    std::optional<MetSurface> at;
+    std::size_t patch = 0;
+    for (std::size_t i = 0; i < mirror.patches.size(); ++i)
+      if (const auto met = mirror.patches[i]->along(eye, along);
+          met && (!at || glm::distance(met->position, eye) < glm::distance(at->position, eye)))
+        at = met, patch = i;
+    if (!at || glm::dot(at->normal, along) >= 0.0f) return;
+    const glm::vec3 mirrored = glm::mat3(world_from_reflector) * glm::reflect(along, at->normal);
+    const glm::vec3 from = world_from_reflector * glm::vec4(at->position + off_surface_m * at->normal, 1.0f);
+    const glm::vec3 unit = glm::normalize(mirrored);
+    const auto hit = rays_->nearest_hit({from, unit});
+    if (!hit || &scene_->objects[std::size_t(hit->place->object)] == &object) return;
+    const auto add = [&](double px) {
+      errors.px.push_back(px);
+      errors.missed += px >= missed_px;
+    };
+    if (patch >= mirror.reflector.maps.size()) return add(missed_px);
+
+    const ReflectorMap& map = mirror.reflector.maps[patch];
+    MapSearch search{map};
+    const glm::vec3 vertex = reflector_from_world * glm::vec4(from + hit->distance_m * unit, 1.0f);
+    const MapSearch::ReflectionTask task{eye, vertex, map.window.centre};
+    const auto on_screen = [&](glm::vec3 point) {
+      return pixel_of(pixel_from_world, world_from_reflector * glm::vec4(point, 1.0f));
+    };
+    double nearest_px = missed_px;
+    bool has_extra = false;
+    const int first = map.shows_once ? -1 : 0, end = map.shows_once ? 0 : search.layer_count;
+    for (int layer = first; layer < end; ++layer) {
+      const MapSearch::PatchPoint found = search_patch(search, task, layer);
+      if (!search.is_found(found)) continue;
+      nearest_px = std::min(nearest_px,
+                            double(glm::distance(on_screen(found.point.position), on_screen(at->position))));
+      has_extra = has_extra || is_extra(mirror, patch, found.point, task);
+    }
+    add(nearest_px);
+    if (!has_extra) return;
+    errors.px.push_back(missed_px);
+    ++errors.extra;
+  }
+  /// Is a point that a search has found shown by the patch, seen by the viewer, and wrong? The patch's own
+  /// mesh says so; what the search finds beyond it belongs to another patch, and is not drawn.
+  static bool is_extra(const Mirror& mirror, std::size_t patch, const MapSearch::ReflectionPoint& point,
+                       const MapSearch::ReflectionTask& task);
+
+  const scene::Scene* scene_ = nullptr;
+  std::unique_ptr<reference::RayScene> rays_;
+  std::unordered_map<const scene::Model*, Mirror> mirrors_;
+};
 
 bool ReflectedPoints::is_extra(const Mirror& mirror, std::size_t patch,
                                const MapSearch::ReflectionPoint& point,
@@ -144,74 +201,6 @@ bool ReflectedPoints::is_extra(const Mirror& mirror, std::size_t patch,
     return first && glm::distance(first->position, task.viewer) < away;
   });
 }
-
-void ReflectedPoints::judge(const Mirror& mirror, const scene::Object& object, const Camera& camera,
-                            const glm::mat4& pixel_from_world, glm::vec3 direction,
-                            const PatchSearch& search_patch, ReflectedPointErrors& errors) const {
-  const glm::mat4 world_from_reflector = object.world_from_model,
-                  reflector_from_world = glm::inverse(world_from_reflector);
-  const glm::vec3 eye = reflector_from_world * glm::vec4(camera.position_in_world(), 1.0f),
-                  along = glm::normalize(glm::vec3(reflector_from_world * glm::vec4(direction, 0.0f)));
-  std::optional<MetSurface> at;
-  std::size_t patch = 0;
-  for (std::size_t i = 0; i < mirror.patches.size(); ++i)
-    if (const auto met = mirror.patches[i]->along(eye, along);
-        met && (!at || glm::distance(met->position, eye) < glm::distance(at->position, eye)))
-      at = met, patch = i;
-  if (!at || glm::dot(at->normal, along) >= 0.0f) return;
-  const glm::vec3 mirrored = glm::mat3(world_from_reflector) * glm::reflect(along, at->normal);
-  const glm::vec3 from = world_from_reflector * glm::vec4(at->position + off_surface_m * at->normal, 1.0f);
-  const glm::vec3 unit = glm::normalize(mirrored);
-  const auto hit = rays_->nearest_hit({from, unit});
-  if (!hit || &scene_->objects[std::size_t(hit->place->object)] == &object) return;
-  const auto add = [&](double px) {
-    errors.px.push_back(px);
-    errors.missed += px >= missed_px;
-  };
-  if (patch >= mirror.reflector.maps.size()) return add(missed_px);
-
-  const ReflectorMap& map = mirror.reflector.maps[patch];
-  MapSearch search{map};
-  const glm::vec3 vertex = reflector_from_world * glm::vec4(from + hit->distance_m * unit, 1.0f);
-  const MapSearch::ReflectionTask task{eye, vertex, map.window.centre};
-  const auto on_screen = [&](glm::vec3 point) {
-    return pixel_of(pixel_from_world, world_from_reflector * glm::vec4(point, 1.0f));
-  };
-  double nearest_px = missed_px;
-  bool has_extra = false;
-  const int first = map.shows_once ? -1 : 0, end = map.shows_once ? 0 : search.layer_count;
-  for (int layer = first; layer < end; ++layer) {
-    const MapSearch::PatchPoint found = search_patch(search, task, layer);
-    if (!search.is_found(found)) continue;
-    nearest_px =
-        std::min(nearest_px, double(glm::distance(on_screen(found.point.position), on_screen(at->position))));
-    has_extra = has_extra || is_extra(mirror, patch, found.point, task);
-  }
-  add(nearest_px);
-  if (!has_extra) return;
-  errors.px.push_back(missed_px);
-  ++errors.extra;
-}
-
-ReflectedPointErrors ReflectedPoints::errors(const Camera& camera, glm::ivec2 size, std::size_t count,
-                                             const PatchSearch& search) const {
-  const glm::mat4 clip_from_world =
-      camera.clip_from_camera(float(size.x) / float(size.y)) * camera.camera_from_world();
-  const glm::mat4 pixel_from_world =
-      glm::scale(glm::mat4(1.0f), {0.5f * float(size.x), 0.5f * float(size.y), 1.0f}) * clip_from_world;
-  Random random(3);
-  ReflectedPointErrors errors;
-  for (std::size_t i = 0; errors.px.size() < count + errors.extra && i < max_tries * count; ++i) {
-    const glm::vec2 pixel(random.uniform(0.0f, float(size.x)), random.uniform(0.0f, float(size.y)));
-    const reference::Ray ray = reference::camera_ray(camera, size.x, size.y, pixel);
-    const auto hit = rays_->nearest_hit(ray);
-    if (!hit || !hit->place->is_mirror) continue;
-    const scene::Object& object = scene_->objects[std::size_t(hit->place->object)];
-    judge(mirrors_.at(object.model.get()), object, camera, pixel_from_world, ray.direction, search, errors);
-  }
-  return errors;
-}
-
 /// The second also shows the bowl's concave side and its rim: each is drawn in 17 layers.
 constexpr std::array timed_cameras{"bowl in the kettle", "at the kettle"};
 constexpr glm::ivec2 timed_size{480, 300};

@@ -43,32 +43,6 @@ struct SearchFigures {
   double microseconds = 0.0;  ///< for each
 };
 
-/// A reflecting body with reflections that are known from its fine mesh.
-class JudgedBody {
- public:
-  using Search = std::function<MapSearch::PatchPoint(MapSearch&, const MapSearch::ReflectionTask&)>;
-
-  /// `count` reflections that nothing of the body hides, their vertices at 1.1, 1.5, 2.5 and 4 radii.
-  static JudgedBody make(std::string name, const Mesh& mesh, std::size_t count);
-
-  /// The name in the report.
-  const std::string& name() const { return name_; }
-  /// All known reflections.
-  const std::vector<KnownReflection>& reflections() const { return reflections_; }
-  /// Runs the search for every known reflection.
-  SearchFigures judge(const Search& search) const;
-  /// Triangles and patches, for the report.
-  std::string description() const;
-
- private:
-  std::string name_;
-  std::size_t triangles_ = 0, patches_ = 0;
-  std::vector<reflector_maps::ReflectorMap> maps_;
-  /// Rays to the fine mesh: each map's own part, and beside it that of its neighbours.
-  std::vector<std::unique_ptr<reflector_maps::SurfaceRays>> own_rays_, rays_around_;
-  std::vector<KnownReflection> reflections_;
-};
-
 using namespace reflection_search;
 using namespace reflector_maps;
 
@@ -116,47 +90,73 @@ glm::vec3 leaves_ball(glm::vec3 from, glm::vec3 direction, glm::vec3 centre, flo
   return from + (std::sqrt(std::max(along * along - glm::dot(off, off) + radius * radius, 0.0f)) - along) *
                     direction;
 }
+/// A reflecting body with reflections that are known from its fine mesh.
+class JudgedBody {
+ public:
+  using Search = std::function<MapSearch::PatchPoint(MapSearch&, const MapSearch::ReflectionTask&)>;
 
-JudgedBody JudgedBody::make(std::string name, const Mesh& mesh, std::size_t count) {
-  Reflector made = must(make_reflector(mesh, name, map_side, max_maps));
-  const ReflectorMesh& ordered = made.mesh;
-  const std::vector<ReflectorPatch>& patches = made.patches;
-  JudgedBody body;
-  body.name_ = std::move(name);
-  body.triangles_ = ordered.neighbours.size();
-  body.patches_ = patches.size();
-  body.maps_ = std::move(made.maps);
-  for (std::size_t i = 0; i < body.maps_.size(); ++i) {
-    body.own_rays_.push_back(std::make_unique<SurfaceRays>(ordered, patches[i].triangles));
-    body.rays_around_.push_back(std::make_unique<SurfaceRays>(ordered, patches[i].around));
+  /// `count` reflections that nothing of the body hides, their vertices at 1.1, 1.5, 2.5 and 4 radii.
+  static JudgedBody make(std::string name, const Mesh& mesh, std::size_t count) {
+    Reflector made = must(make_reflector(mesh, name, map_side, max_maps));
+    const ReflectorMesh& ordered = made.mesh;
+    const std::vector<ReflectorPatch>& patches = made.patches;
+    JudgedBody body;
+    body.name_ = std::move(name);
+    body.triangles_ = ordered.neighbours.size();
+    body.patches_ = patches.size();
+    body.maps_ = std::move(made.maps);
+    for (std::size_t i = 0; i < body.maps_.size(); ++i) {
+      body.own_rays_.push_back(std::make_unique<SurfaceRays>(ordered, patches[i].triangles));
+      body.rays_around_.push_back(std::make_unique<SurfaceRays>(ordered, patches[i].around));
+    }
+
+    std::vector<std::uint32_t> all(body.triangles_);
+    std::iota(all.begin(), all.end(), 0u);
+    const SurfaceRays whole(ordered, all);
+    const AreaDraw area(ordered, patches);
+    const glm::vec3 centre = ordered.mesh.bounds().centre();
+    float radius = 0.0f;
+    for (const glm::vec3& p : ordered.mesh.positions) radius = std::max(radius, glm::distance(p, centre));
+    Random random(1);
+    for (std::size_t tried = 0; body.reflections_.size() < count && tried < 100 * count; ++tried) {
+      const auto [patch, triangle] = area.draw(random);
+      const MetSurface at = chance_point(ordered, triangle, random);
+      const glm::vec3 to_viewer = random_direction(random);
+      if (glm::dot(to_viewer, at.normal) < flattest) continue;
+      const glm::vec3 to_vertex = glm::reflect(-to_viewer, at.normal),
+                      above = at.position + 1e-4f * radius * at.normal;
+      if (whole.along(above, to_viewer) || whole.along(above, to_vertex)) continue;
+      const float reach = reaches[body.reflections_.size() % reaches.size()];
+      body.reflections_.push_back(
+          {patch, leaves_ball(at.position, to_viewer, centre, random.uniform(1.5f, 6.0f) * radius),
+           leaves_ball(at.position, to_vertex, centre, reach * radius), reach});
+    }
+    // As a reflector is drawn: patch by patch.
+    std::sort(body.reflections_.begin(), body.reflections_.end(),
+              [](const KnownReflection& a, const KnownReflection& b) { return a.patch < b.patch; });
+    return body;
   }
 
-  std::vector<std::uint32_t> all(body.triangles_);
-  std::iota(all.begin(), all.end(), 0u);
-  const SurfaceRays whole(ordered, all);
-  const AreaDraw area(ordered, patches);
-  const glm::vec3 centre = ordered.mesh.bounds().centre();
-  float radius = 0.0f;
-  for (const glm::vec3& p : ordered.mesh.positions) radius = std::max(radius, glm::distance(p, centre));
-  Random random(1);
-  for (std::size_t tried = 0; body.reflections_.size() < count && tried < 100 * count; ++tried) {
-    const auto [patch, triangle] = area.draw(random);
-    const MetSurface at = chance_point(ordered, triangle, random);
-    const glm::vec3 to_viewer = random_direction(random);
-    if (glm::dot(to_viewer, at.normal) < flattest) continue;
-    const glm::vec3 to_vertex = glm::reflect(-to_viewer, at.normal),
-                    above = at.position + 1e-4f * radius * at.normal;
-    if (whole.along(above, to_viewer) || whole.along(above, to_vertex)) continue;
-    const float reach = reaches[body.reflections_.size() % reaches.size()];
-    body.reflections_.push_back(
-        {patch, leaves_ball(at.position, to_viewer, centre, random.uniform(1.5f, 6.0f) * radius),
-         leaves_ball(at.position, to_vertex, centre, reach * radius), reach});
+  /// The name in the report.
+  const std::string& name() const { return name_; }
+  /// All known reflections.
+  const std::vector<KnownReflection>& reflections() const { return reflections_; }
+  /// Runs the search for every known reflection.
+  SearchFigures judge(const Search& search) const;
+  /// Triangles and patches, for the report.
+  std::string description() const {
+    return fmt::format("{}: {} triangles, {} patches, {} maps of {} x {}, {} reflections", name_, triangles_,
+                       patches_, maps_.size(), map_side, map_side, reflections_.size());
   }
-  // As a reflector is drawn: patch by patch.
-  std::sort(body.reflections_.begin(), body.reflections_.end(),
-            [](const KnownReflection& a, const KnownReflection& b) { return a.patch < b.patch; });
-  return body;
-}
+
+ private:
+  std::string name_;
+  std::size_t triangles_ = 0, patches_ = 0;
+  std::vector<reflector_maps::ReflectorMap> maps_;
+  /// Rays to the fine mesh: each map's own part, and beside it that of its neighbours.
+  std::vector<std::unique_ptr<reflector_maps::SurfaceRays>> own_rays_, rays_around_;
+  std::vector<KnownReflection> reflections_;
+};
 
 SearchFigures JudgedBody::judge(const Search& search) const {
   std::vector<MapSearch::PatchPoint> points(reflections_.size());
@@ -188,12 +188,6 @@ SearchFigures JudgedBody::judge(const Search& search) const {
   }
   return figures;
 }
-
-std::string JudgedBody::description() const {
-  return fmt::format("{}: {} triangles, {} patches, {} maps of {} x {}, {} reflections", name_, triangles_,
-                     patches_, maps_.size(), map_side, map_side, reflections_.size());
-}
-
 /// A part of all that were counted.
 struct Share {
   int counted = 0, all = 0;
@@ -204,6 +198,13 @@ struct Share {
   double percent() const { return all ? 100.0 * counted / all : 0.0; }
 };
 
+constexpr double judged_share = 0.99;
+
+/// A search that never finds a point meets no target.
+double ratio_of(const std::vector<double>& over, const std::vector<double>& under) {
+  if (over.empty() || under.empty()) return std::numeric_limits<double>::infinity();
+  return percentile(over, judged_share) / percentile(under, judged_share);
+}
 /// Results of searches for the same reflections. All are accepted by one rule, whatever they report of
 /// themselves: a search that ends where the fine mesh has no surface has no angle there. It counts in that
 /// search's share of points not found, and in no percentile.
@@ -213,39 +214,25 @@ struct ComparedSearches {
   Share not_found_by_newton, not_found_by_midpoint;
 
   /// Figures of one body.
-  void add(const SearchFigures& newton, const SearchFigures& midpoint, const SearchFigures& control);
+  void add(const SearchFigures& newton, const SearchFigures& midpoint, const SearchFigures& control) {
+    for (std::size_t i = 0; i < newton.angles_deg.size(); ++i) {
+      const std::optional<double> by_newton = newton.angles_deg[i];
+      const std::optional<double> by_midpoint = midpoint.angles_deg[i];
+      const std::optional<double> by_control = control.angles_deg[i];
+      not_found_by_newton.add(!by_newton);
+      not_found_by_midpoint.add(!by_midpoint);
+      if (!by_midpoint) continue;
+      if (by_newton) newton_deg.push_back(*by_newton), beside_newton_deg.push_back(*by_midpoint);
+      if (by_control) control_deg.push_back(*by_control), beside_control_deg.push_back(*by_midpoint);
+    }
+  }
   /// 99th percentile of the default search's angles over that of the paper's; infinite without any.
   double newton_ratio() const;
   /// The same of more steps.
-  double control_ratio() const;
+  double control_ratio() const { return ratio_of(control_deg, beside_control_deg); }
 };
 
-constexpr double judged_share = 0.99;
-
-/// A search that never finds a point meets no target.
-double ratio_of(const std::vector<double>& over, const std::vector<double>& under) {
-  if (over.empty() || under.empty()) return std::numeric_limits<double>::infinity();
-  return percentile(over, judged_share) / percentile(under, judged_share);
-}
-
-void ComparedSearches::add(const SearchFigures& newton, const SearchFigures& midpoint,
-                           const SearchFigures& control) {
-  for (std::size_t i = 0; i < newton.angles_deg.size(); ++i) {
-    const std::optional<double> by_newton = newton.angles_deg[i];
-    const std::optional<double> by_midpoint = midpoint.angles_deg[i];
-    const std::optional<double> by_control = control.angles_deg[i];
-    not_found_by_newton.add(!by_newton);
-    not_found_by_midpoint.add(!by_midpoint);
-    if (!by_midpoint) continue;
-    if (by_newton) newton_deg.push_back(*by_newton), beside_newton_deg.push_back(*by_midpoint);
-    if (by_control) control_deg.push_back(*by_control), beside_control_deg.push_back(*by_midpoint);
-  }
-}
-
 double ComparedSearches::newton_ratio() const { return ratio_of(newton_deg, beside_newton_deg); }
-
-double ComparedSearches::control_ratio() const { return ratio_of(control_deg, beside_control_deg); }
-
 namespace fs = std::filesystem;
 
 constexpr std::array ellipsoids{glm::vec3(1.0f), glm::vec3(1.0f, 0.6f, 0.8f), glm::vec3(2.0f, 0.9f, 0.6f)};

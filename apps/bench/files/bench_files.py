@@ -7,9 +7,6 @@ Its parts measure the built command from outside, by other readers than its own;
 Parts that lack a program or data are skipped by name.
 """
 
-import argparse
-import importlib.machinery
-import importlib.util
 import json
 import os
 import pathlib
@@ -19,31 +16,12 @@ import sys
 import tempfile
 import time
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from outside import PARVIS, ROOT, Skipped, main, run
+
 HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parent.parent.parent
-PARVIS = ROOT / "build/release/apps/parvis/parvis"
 SECOND = ROOT / "script/second_readers"
 DATA = next((folder for folder in (ROOT / "../shared/data", ROOT / "shared/data") if folder.is_dir()), None)
-
-
-def table():
-    """The keys of this bench and figures.is_met, from script/figures: {name: row of apps/bench/keys.cpp}."""
-    loader = importlib.machinery.SourceFileLoader("figures", str(ROOT / "script/figures"))
-    figures = importlib.util.module_from_spec(importlib.util.spec_from_loader("figures", loader))
-    loader.exec_module(figures)
-    return {row["name"]: row for title, rows in figures.table_of_keys() if title == "files" for row in rows}, figures.is_met
-
-
-class Skipped(Exception):
-    """What a part needs is not there."""
-
-
-def run(*words, limit_s=3000):
-    """A finished program; 77 means that it skips itself."""
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=limit_s)
-    if done.returncode == 77:
-        raise Skipped((done.stdout + done.stderr).strip().splitlines()[-1])
-    return done
 
 
 def judged(figures, quick):
@@ -149,43 +127,5 @@ def load_times(figures, quick):
 PARTS = {"reports": judged, "second_readers": second_readers, "written_today": written_today, "load_times": load_times}
 
 
-def main():
-    parser = argparse.ArgumentParser(prog="script/bench files")
-    parser.add_argument("--quick", action="store_true", help="small files alone")
-    parser.add_argument("--json", type=pathlib.Path)
-    parser.add_argument("--list", action="store_true")
-    parser.add_argument("--part", choices=PARTS)
-    arguments = parser.parse_args()
-    if arguments.list:
-        for name, part in PARTS.items():
-            print(f"files {name} {part.__doc__.splitlines()[0]}")
-        return
-    figures, failed = {}, []
-    for name in [arguments.part] if arguments.part else PARTS:
-        print(f"{name}:", flush=True)
-        try:
-            PARTS[name](figures, arguments.quick)
-        except Skipped as reason:
-            print(f"  skipped: {reason}")
-    print(f"{'key':<34}{'value':>10} {'target':<8} control" + ("  (the quick run)" if arguments.quick else ""))
-    keys, is_met = table()
-    rows = []
-    for key, row in keys.items():
-        if key not in figures:
-            continue
-        control = row["controls"][0]
-        if is_met(row, figures[control]):
-            failed.append(f"{key}: its control reaches the target")
-        target = ("<= " if row["kind"] == "maximum" else ">= ") + f"{row['limit']:g}"
-        verdict = "" if is_met(row, figures[key]) else "MISSED"
-        print(f"{key:<34}{figures[key]:>10.4g} {target:<8} {figures[control]:.4g} {verdict}  {row['shows']}")
-        rows += [{"key": name, "value": figures[name]} for name in (key, control)]
-    if arguments.json:
-        arguments.json.write_text(json.dumps({"bench": "files", "quick": arguments.quick, "figures": figures, "keys": rows}))
-    for line in failed:
-        print(line, file=sys.stderr)
-    sys.exit(1 if failed else 0)
-
-
 if __name__ == "__main__":
-    main()
+    main("files", PARTS)

@@ -214,8 +214,8 @@ struct Totals {
     const auto over = [&](double triangles) { return triangles / std::max(count.buildings, 1.0); };
     osm_stored = std::max(osm_stored, over(count.stored)), osm_own = std::max(osm_own, over(count.own));
     if (count.buildings >= large_map) osm_stored_large = std::max(osm_stored_large, over(count.stored));
-    osm_plants = std::max(osm_plants, over(count.plants)),
-    osm_placed = std::max(osm_placed, over(count.placed));
+    osm_placed = std::max(osm_placed, over(count.placed)),
+    osm_plants = std::max(osm_plants, over(count.plants));
   }
 };
 

@@ -176,16 +176,11 @@ void WrongSun::add(const SunPicture& truth, const SunShares& shares) {
     if (truth[i] < 0) continue;
     ++pixels;
     wrong += (shares[i] > half_lit) != (truth[i] > 0);
-    off += std::abs(double(shares[i]) - double(truth[i]));
   }
 }
 
 double WrongSun::percent() const {
   return pixels > 0 ? 100.0 * double(wrong) / double(pixels) : std::numeric_limits<double>::quiet_NaN();
-}
-
-double WrongSun::mean_off_percent() const {
-  return pixels > 0 ? 100.0 * off / double(pixels) : std::numeric_limits<double>::quiet_NaN();
 }
 
 glm::vec3 turned_sun(glm::vec3 to_sun, float degrees) {

@@ -97,14 +97,11 @@ inline constexpr float half_lit = 0.5f;
 /// Wrong pixels among those of which a truth is known.
 struct WrongSun {
   long wrong = 0, pixels = 0;
-  double off = 0.0;  ///< sum of the differences of shares
 
   /// Counts the pixels of one more picture.
   void add(const SunPicture& truth, const SunShares& shares);
   /// NaN of no pixels, which meets no target.
   double percent() const;
-  /// Mean difference of the share from the truth; NaN of no pixels.
-  double mean_off_percent() const;
 };
 
 /// A unit direction to the sun turned sideways, along the great circle that is level there, by exactly so

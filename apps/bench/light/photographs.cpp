@@ -337,8 +337,6 @@ void measure_bounced_light(const BenchSetup& setup, Report& report) {
   report.add("flip_to_photograph_over_without_bounces", all.with / all.without);
   report.add("flip_to_photograph_over_without_bounces_brightened_control", all.brightened / all.without);
   report.add("flip_to_photograph_over_without_bounces_exchanged_hours", all.exchanged / all.without);
-  // Reported alone: pictures without any bounced light are nearer than those of exchanged hours, too.
-  report.add("flip_to_photograph_over_exchanged_hours", all.with / all.exchanged);
   report.add("flip_between_two_photographs", flip_of_noise.value());
 }
 
@@ -368,7 +366,6 @@ void measure_night(const BenchSetup& setup, Report& report) {
                without = mean_flip(renderer, without_lamps(lit), views, photographs);
   report.add("flip_to_photograph_at_night", with);
   report.add("flip_to_photograph_at_night_lamps_off", without);
-  report.add("flip_to_photograph_at_night_over_lamps_off", with / without);
 }
 
 }  // namespace parvis::bench

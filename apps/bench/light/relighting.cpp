@@ -25,49 +25,6 @@
 namespace parvis::bench {
 namespace {
 
-/// The city's files and the running scene that was read from them.
-class CrownCity {
- public:
-  /// Writes the city and the crown's model into `folder`, for any number of `open`.
-  static void write(const BenchSetup& setup);
-  /// `how_lit` is what stands between the parentheses of litVirtualObject: nothing, as it ships.
-  static CrownCity open(const BenchSetup& setup, const char* how_lit);
-
-  /// Moves the crown to a place east and north of the main crossing; `advance` shows it.
-  void move(glm::vec2 from_crossing_m);
-  /// A message to the scene's dayLight. Fails as SceneClock::send.
-  void send_to_sky(const std::string& message) { must(simulation_.clock.send("%dayLight", message)); }
-  void advance();
-  /// Advances, and finishes what is spread over frames to come.
-  void settle();
-
-  /// The crown's index in the scene.
-  int object() const { return int(crown_); }
-  const scene::Scene& scene() const { return simulation_.scene; }
-  /// Irradiance of the crown's vertices, as renderers have it now.
-  std::vector<glm::vec3> light() const;
-  /// The same vertices where they stand now, in the same order.
-  std::vector<light::LitVertex> vertices() const;
-  /// Their box.
-  Bounds bounds() const;
-  /// Fails where no wall stands within 8 m east or west of the middle of the crown: on a lawn all places have
-  /// one light.
-  void stands_beside_facade() const;
-  /// Fails where anything else stands among the leaves, or where more than a few of them lie in the shade of
-  /// other things: inside a street tree rays would end within a metre.
-  void stands_free_in_sun(glm::vec3 to_sun) const;
-  /// The geometry that casts light and shade on the crown: all that stands still, with the crown itself or
-  /// without it.
-  scene::Scene casters(bool with_crown) const;
-
- private:
-  CrownCity(stage::Simulation simulation, std::size_t crown)
-      : simulation_(std::move(simulation)), crown_(crown) {}
-
-  stage::Simulation simulation_;
-  std::size_t crown_;  ///< index of the object
-};
-
 /// East and north of the main crossing: its middle, and in the street to the north of it. At
 /// the city's hour, 15:30 on a day in June, one side of that street lies in the sun, as the crossing does,
 /// and the other in the shade. In the sun it is the crown of an orange tree between two street trees, 11 and
@@ -111,10 +68,111 @@ scene::Model crown() {
   model.materials.push_back(std::move(leaf));
   return model;
 }
+/// The city's files and the running scene that was read from them.
+class CrownCity {
+ public:
+  /// Writes the city and the crown's model into `folder`, for any number of `open`.
+  static void write(const BenchSetup& setup) { must(scene::write_gltf(setup.city() / "crown.glb", crown())); }
+  /// `how_lit` is what stands between the parentheses of litVirtualObject: nothing, as it ships.
+  static CrownCity open(const BenchSetup& setup, const char* how_lit);
 
-void CrownCity::write(const BenchSetup& setup) {
-  must(scene::write_gltf(setup.city() / "crown.glb", crown()));
-}
+  /// Moves the crown to a place east and north of the main crossing; `advance` shows it.
+  void move(glm::vec2 from_crossing_m) {
+    simulation_.scene.objects[crown_].world_from_model =
+        glm::translate(glm::mat4(1.0f), glm::vec3(city::main_crossing() + from_crossing_m, 0.0f));
+  }
+  /// A message to the scene's dayLight. Fails as SceneClock::send.
+  void send_to_sky(const std::string& message) { must(simulation_.clock.send("%dayLight", message)); }
+  void advance() { simulation_.advance(frame_s); }
+  /// Advances, and finishes what is spread over frames to come.
+  void settle() {
+    advance();
+    simulation_.settle();
+  }
+
+  /// The crown's index in the scene.
+  int object() const { return int(crown_); }
+  const scene::Scene& scene() const { return simulation_.scene; }
+  /// Irradiance of the crown's vertices, as renderers have it now.
+  std::vector<glm::vec3> light() const {
+    std::vector<glm::vec3> all;
+    for (const auto& part : simulation_.scene.data<scene::VertexIrradiance>().of(crown_)->parts)
+      all.insert(all.end(), part.front.begin(), part.front.end());
+    return all;
+  }
+  /// The same vertices where they stand now, in the same order.
+  std::vector<light::LitVertex> vertices() const {
+    const scene::Object& object = simulation_.scene.objects[crown_];
+    const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
+    std::vector<light::LitVertex> vertices;
+    for (const scene::Part& part : object.model->parts) {
+      const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
+      for (std::size_t v = 0; v < part.mesh.positions.size(); ++v)  // nothing is scaled
+        vertices.push_back({glm::vec3(world_from_mesh * glm::vec4(part.mesh.positions[v], 1.0f)),
+                            glm::normalize(glm::mat3(world_from_mesh) * part.mesh.normals[v])});
+    }
+    return vertices;
+  }
+  /// Their box.
+  Bounds bounds() const {
+    Bounds bounds;
+    for (const light::LitVertex& vertex : vertices()) bounds.add(vertex.position);
+    return bounds;
+  }
+  /// Fails where no wall stands within 8 m east or west of the middle of the crown: on a lawn all places have
+  /// one light.
+  void stands_beside_facade() const {
+    constexpr float near_m = 8.0f;  // beside a lawn it would be 60
+    const glm::vec3 middle = bounds().centre();
+    const scene::Scene others = casters(false);
+    const reference::RayScene around(others);
+    for (const float east : {-1.0f, 1.0f})
+      if (around.is_blocked({middle, {east, 0.0f, 0.0f}, 0.0f, near_m})) return;
+    fail("the crown stands at {:.1f} {:.1f}, where no facade is within {} m", middle.x, middle.y, near_m);
+  }
+  /// Fails where anything else stands among the leaves, or where more than a few of them lie in the shade of
+  /// other things: inside a street tree rays would end within a metre.
+  void stands_free_in_sun(glm::vec3 to_sun) const {
+    constexpr double max_share = 0.01;
+    const scene::Scene others = casters(false);
+    const reference::RayScene around(others);
+    const std::vector<light::LitVertex> leaves = vertices();
+    const glm::vec3 middle = bounds().centre();
+    std::size_t met = 0, shaded = 0;
+    for (const light::LitVertex& leaf : leaves) {
+      const glm::vec3 inward = middle - leaf.position;
+      const float distance_m = glm::length(inward);
+      if (distance_m > 0.0f && around.is_blocked({leaf.position, inward / distance_m, 0.0f, distance_m}))
+        ++met;
+      if (around.is_blocked({leaf.position, to_sun})) ++shaded;
+    }
+    const double all = double(leaves.size());
+    if (met == 0 && double(shaded) <= max_share * all) return;
+    fail(
+        "the crown at {:.1f} {:.1f} does not stand free in the sun: other things lie between {:.0f} % "
+        "of its vertices and its middle, and shade {:.0f} %",
+        middle.x, middle.y, 100.0 * double(met) / all, 100.0 * double(shaded) / all);
+  }
+  /// The geometry that casts light and shade on the crown: all that stands still, with the crown itself or
+  /// without it.
+  scene::Scene casters(bool with_crown) const {
+    scene::Scene casters = simulation_.scene;
+    casters.sky.picture = {};
+    for (std::size_t o = 0; o < casters.objects.size(); ++o)
+      if (o == crown_)
+        casters.objects[o].is_visible = with_crown, casters.objects[o].is_dynamic = true;  // it has moved
+      else if (casters.objects[o].is_dynamic)
+        casters.objects[o].is_visible = false;
+    return casters;
+  }
+
+ private:
+  CrownCity(stage::Simulation simulation, std::size_t crown)
+      : simulation_(std::move(simulation)), crown_(crown) {}
+
+  stage::Simulation simulation_;
+  std::size_t crown_;  ///< index of the object
+};
 
 CrownCity CrownCity::open(const BenchSetup& setup, const char* how_lit) {
   const auto script = setup.city() / "lit.xp";
@@ -128,87 +186,6 @@ CrownCity CrownCity::open(const BenchSetup& setup, const char* how_lit) {
     if (simulation.scene.objects[o].name == crown_name) return CrownCity(std::move(simulation), o);
   fail("the scene has no object \"{}\"", crown_name);
 }
-
-void CrownCity::move(glm::vec2 from_crossing_m) {
-  simulation_.scene.objects[crown_].world_from_model =
-      glm::translate(glm::mat4(1.0f), glm::vec3(city::main_crossing() + from_crossing_m, 0.0f));
-}
-
-void CrownCity::advance() { simulation_.advance(frame_s); }
-
-void CrownCity::settle() {
-  advance();
-  simulation_.settle();
-}
-
-std::vector<glm::vec3> CrownCity::light() const {
-  std::vector<glm::vec3> all;
-  for (const auto& part : simulation_.scene.data<scene::VertexIrradiance>().of(crown_)->parts)
-    all.insert(all.end(), part.front.begin(), part.front.end());
-  return all;
-}
-
-std::vector<light::LitVertex> CrownCity::vertices() const {
-  const scene::Object& object = simulation_.scene.objects[crown_];
-  const std::vector<glm::mat4> pose = object.pose.empty() ? scene::rest_pose(*object.model) : object.pose;
-  std::vector<light::LitVertex> vertices;
-  for (const scene::Part& part : object.model->parts) {
-    const glm::mat4 world_from_mesh = object.world_from_model * pose[std::size_t(part.node)];
-    for (std::size_t v = 0; v < part.mesh.positions.size(); ++v)  // nothing is scaled
-      vertices.push_back({glm::vec3(world_from_mesh * glm::vec4(part.mesh.positions[v], 1.0f)),
-                          glm::normalize(glm::mat3(world_from_mesh) * part.mesh.normals[v])});
-  }
-  return vertices;
-}
-
-Bounds CrownCity::bounds() const {
-  Bounds bounds;
-  for (const light::LitVertex& vertex : vertices()) bounds.add(vertex.position);
-  return bounds;
-}
-
-void CrownCity::stands_beside_facade() const {
-  constexpr float near_m = 8.0f;  // beside a lawn it would be 60
-  const glm::vec3 middle = bounds().centre();
-  const scene::Scene others = casters(false);
-  const reference::RayScene around(others);
-  for (const float east : {-1.0f, 1.0f})
-    if (around.is_blocked({middle, {east, 0.0f, 0.0f}, 0.0f, near_m})) return;
-  fail("the crown stands at {:.1f} {:.1f}, where no facade is within {} m", middle.x, middle.y, near_m);
-}
-
-void CrownCity::stands_free_in_sun(glm::vec3 to_sun) const {
-  constexpr double max_share = 0.01;
-  const scene::Scene others = casters(false);
-  const reference::RayScene around(others);
-  const std::vector<light::LitVertex> leaves = vertices();
-  const glm::vec3 middle = bounds().centre();
-  std::size_t met = 0, shaded = 0;
-  for (const light::LitVertex& leaf : leaves) {
-    const glm::vec3 inward = middle - leaf.position;
-    const float distance_m = glm::length(inward);
-    if (distance_m > 0.0f && around.is_blocked({leaf.position, inward / distance_m, 0.0f, distance_m})) ++met;
-    if (around.is_blocked({leaf.position, to_sun})) ++shaded;
-  }
-  const double all = double(leaves.size());
-  if (met == 0 && double(shaded) <= max_share * all) return;
-  fail(
-      "the crown at {:.1f} {:.1f} does not stand free in the sun: other things lie between {:.0f} % "
-      "of its vertices and its middle, and shade {:.0f} %",
-      middle.x, middle.y, 100.0 * double(met) / all, 100.0 * double(shaded) / all);
-}
-
-scene::Scene CrownCity::casters(bool with_crown) const {
-  scene::Scene casters = simulation_.scene;
-  casters.sky.picture = {};
-  for (std::size_t o = 0; o < casters.objects.size(); ++o)
-    if (o == crown_)
-      casters.objects[o].is_visible = with_crown, casters.objects[o].is_dynamic = true;  // it has moved
-    else if (casters.objects[o].is_dynamic)
-      casters.objects[o].is_visible = false;
-  return casters;
-}
-
 /// Root of the mean square of what is off, over all channels, as a share of the truth's mean.
 double light_rmse_percent(const std::vector<glm::vec3>& light, const std::vector<glm::vec3>& truth) {
   double off = 0.0, mean = 0.0;
@@ -345,7 +322,6 @@ void measure_errors(const CrownCity& city, const light::SkyTable& sky, const ref
   };
   report.add("relight_16_rmse_percent", off_percent(16));
   report.add("relight_256_rmse_percent", off_percent(256));
-  report.add("relight_16k_rmse_percent", off_percent(16'384));
   report.add("relight_256_rmse_percent_without_bounces", off_percent(256, light::Blocked::dark));
 }
 

@@ -31,12 +31,6 @@ double median_difference(const std::vector<FrameCost>& more, const std::vector<F
   return median(std::move(differences)).value;
 }
 
-double median_of(const std::vector<FrameCost>& frames, Cost cost) {
-  std::vector<double> all;
-  for (const FrameCost& frame : frames) all.push_back(frame.*cost);
-  return median(std::move(all)).value;
-}
-
 /// Frames of one size in turn, each under a sun of its own: by rays, by the default's maps, and by the same
 /// maps where they are kept, because sun and view are those of the frame before.
 struct FrameCosts {
@@ -170,29 +164,12 @@ std::size_t triangles_of(const scene::Scene& scene) {
   return count;
 }
 
-/// The same place, looking the other way: from there a view jumps.
-Camera turned_back(Camera camera) {
-  camera.world_from_camera[0] = -camera.world_from_camera[0];
-  camera.world_from_camera[2] = -camera.world_from_camera[2];
-  return camera;
-}
-
-void report_times(const FrameCosts& costs, const FrameCosts& of_more_pixels, const FrameCosts& of_low_suns,
-                  const std::vector<FrameCost>& jumps, Report& report) {
+void report_times(const FrameCosts& costs, const FrameCosts& of_more_pixels, Report& report) {
   constexpr Cost ms = &FrameCost::ms;
   report.add("shadow_rays_over_depth_pass_time", costs.rays_over_depth_pass(ms));
   report.add("shadow_rays_over_depth_pass_time_control_of_4_times_the_pixels",
              of_more_pixels.rays_over_depth_pass(ms));
   report.add("shadow_rays_over_depth_pass_cpu_time", costs.rays_over_depth_pass(&FrameCost::cpu_ms));
-  report.add("shadow_rays_over_depth_pass_time_under_a_low_sun", of_low_suns.rays_over_depth_pass(ms));
-  const double maps_ms = median_of(costs.maps, ms), rays_ms = median_of(costs.rays, ms),
-               jump_ms = median_of(jumps, ms);
-  report.add("shadow_rays_over_depth_pass_time_of_the_frame", rays_ms / maps_ms);
-  report.add("shadow_rays_over_depth_pass_time_of_a_jump", jump_ms / maps_ms);
-  report.note(
-      fmt::format("beginning of a frame of {} x {} pixels under a new sun: by rays {:.0f} ms, {:.0f} after a "
-                  "jump; by the default {:.0f} ms, {:.0f} of them for its maps",
-                  picture.x, picture.y, rays_ms, jump_ms, maps_ms, costs.depth_pass(ms)));
 }
 
 void report_judgement(const Judgement& moving, Report& report) {
@@ -218,33 +195,27 @@ void measure_shadow_times(const BenchSetup& setup, Report& report) {
   auto rays = BegunFrames::create(still, light::ShadowTechnique::rays);
   auto maps = BegunFrames::create(still, light::ShadowSettings().technique);
 
-  FrameCosts costs, of_more_pixels, of_low_suns;
-  std::vector<FrameCost> jumps;
+  FrameCosts costs, of_more_pixels;
   Judgement of_moving;
   int suns = 0;
-  const auto next_sun = [&](float height = 0.7f) {  // 54 degrees; 0.06: 7
-    return glm::normalize(glm::vec3(0.4f, -0.3f + 0.02f * float(suns++), height));
-  };
+  const auto next_sun = [&] { return glm::normalize(glm::vec3(0.4f, -0.3f + 0.02f * float(suns++), 0.7f)); };
   const std::size_t views = std::min(max_views, city.cameras.size());
   for (std::size_t v = 0; v < views; ++v) {
     const Camera& camera = city.cameras[v].camera;
-    for (BegunFrames* frames : {rays.get(), maps.get()})  // arrays and textures of this size are made
-      frames->begin(turned_back(camera), next_sun(), picture);
     glm::vec3 to_sun = next_sun();
-    jumps.push_back(rays->begin(camera, to_sun, picture));
-    maps->begin(camera, to_sun, picture);
+    for (BegunFrames* frames : {rays.get(), maps.get()})  // arrays and textures of this size are made
+      frames->begin(camera, to_sun, picture);
     for (int i = 1; i <= pictures_per_view; ++i) {
       to_sun = next_sun();
       add(*rays, *maps, ahead(camera, 2 * i), to_sun, picture, costs);
     }
     of_moving.add(tracer, unknown, ahead(camera, 2 * pictures_per_view), to_sun, rays->traced());
-    add(*rays, *maps, ahead(camera, 2 * pictures_per_view + 3), next_sun(0.06f), picture, of_low_suns);
     // The control has four times as many pixels; the first frame of another size is a jump.
     for (BegunFrames* frames : {rays.get(), maps.get()}) frames->begin(camera, next_sun(), 2 * picture);
     add(*rays, *maps, ahead(camera, 2), next_sun(), 2 * picture, of_more_pixels);
   }
   report_judgement(of_moving, report);
-  report_times(costs, of_more_pixels, of_low_suns, jumps, report);
+  report_times(costs, of_more_pixels, report);
 }
 
 }  // namespace parvis::bench

@@ -18,21 +18,6 @@ bool is_at_crossing(const scene::Scene& scene, glm::vec3 at) {
   });
 }
 
-reference::TracedPicture traced_with_exact_shadows(stage::Stage& stage, const NearView& view,
-                                                   const Comparison& comparison) {
-  render::Renderer& renderer = stage.renderer();
-  renderer.begin_frame(stage.scene(), view.camera);
-  shading::DrawnLight light = renderer.drawn_light();
-  light.has_exact_shadows = true;
-  reference::TraceOptions options;
-  options.samples_per_pixel = comparison.samples_per_pixel;
-  options.window = view.window;
-  options.drawn_light = &light;
-  options.mirror_bounces = methods::settings(stage.scene()).bounces;
-  return reference::trace_picture(reference::RayScene(stage.scene()), stage.scene(), renderer.sky(),
-                                  view.camera, comparison.size.x, comparison.size.y, options);
-}
-
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / double(std::max<std::size_t>(values.size(), 1));
 }
@@ -44,15 +29,11 @@ void judge(stage::Stage& stage, const std::vector<JudgedMethod>& judged, const N
   std::vector<Image8> pictures;
   for (const JudgedMethod& method : judged)
     pictures.push_back(picture_of(stage, method, view.camera, size, view.window));
-  const auto add = [&](const reference::TracedPicture& truth, std::vector<double> Compared::Method::*flips) {
-    const Image8 expected = shading::tone_mapped_picture(truth.radiance, stage.scene().exposure);
-    for (std::size_t m = 0; m < judged.size(); ++m)
-      (compared.methods[m].*flips).push_back(flip_between(pictures[m], expected, truth.mirror_mask));
-  };
-  add(stage.trace(view.camera, size.x, size.y, comparison.samples_per_pixel, view.window),
-      &Compared::Method::flip);
-  if (comparison.also_exact_shadows)
-    add(traced_with_exact_shadows(stage, view, comparison), &Compared::Method::exact_flip);
+  const reference::TracedPicture truth =
+      stage.trace(view.camera, size.x, size.y, comparison.samples_per_pixel, view.window);
+  const Image8 expected = shading::tone_mapped_picture(truth.radiance, stage.scene().exposure);
+  for (std::size_t m = 0; m < judged.size(); ++m)
+    compared.methods[m].flip.push_back(flip_between(pictures[m], expected, truth.mirror_mask));
 }
 
 void time(stage::Stage& stage, const std::vector<JudgedMethod>& judged, const NearView& view,
@@ -83,7 +64,6 @@ double Compared::value(const MethodRow& row) const {
   const bool is_ratio = *row.over != '\0';
   if (row.measure == Measure::cost)
     return is_ratio ? ratio_in_turn(of.ms, method(row.over).ms).value : median(of.ms).value;
-  if (row.measure == Measure::exact_flip) return mean(of.exact_flip);
   if (row.measure == Measure::flip) return mean(of.flip) / (is_ratio ? mean(method(row.over).flip) : 1.0);
   double worst = 0.0;
   for (std::size_t v = 0; v < of.flip.size(); ++v)
@@ -101,9 +81,6 @@ void Compared::report(std::span<const MethodRow> rows, Report& report) const {
     if (!method.flip.empty())
       report.note(
           fmt::format("FLIP {}: mean {:.4f}, views{}", method.name, mean(method.flip), list(method.flip, 3)));
-    if (!method.exact_flip.empty())
-      report.note(
-          fmt::format("FLIP {} against exact shadows: mean {:.4f}", method.name, mean(method.exact_flip)));
     if (!method.ms.empty()) report.note(fmt::format("{} ms:{}", method.name, list(method.ms, 1)));
   }
   for (const MethodRow& row : rows) {
@@ -119,7 +96,7 @@ Compared compared(stage::Stage& stage, const Comparison& comparison) {
   const glm::ivec2 size = is_judged ? comparison.size : full_picture;
   NearViews views(stage, size, comparison.wish);
   Compared result;
-  for (const JudgedMethod& method : judged) result.methods.push_back({method.name, {}, {}, {}});
+  for (const JudgedMethod& method : judged) result.methods.push_back({method.name, {}, {}});
   for (int v = 0; v < comparison.views; ++v) {
     const NearView view = views.next();
     result.is_at_crossing.push_back(is_at_crossing(stage.scene(), view.car));

@@ -16,10 +16,9 @@ struct Comparison {
   WantedMethods methods;  ///< by the names that rows use; the first is "none" where any is timed
   NearViewWish wish = {};
   int views = 8;
-  glm::ivec2 size = full_picture;   ///< of the pictures that are judged; {0, 0}: none is
-  int samples_per_pixel = 16;       ///< of the ground truth, whose shadows are the maps of the picture
-  bool also_exact_shadows = false;  ///< judge the same pictures against exact shadows, too
-  int repeats = 0;                  ///< with which each view is timed, at full size; 0: none is
+  glm::ivec2 size = full_picture;  ///< of the pictures that are judged; {0, 0}: none is
+  int samples_per_pixel = 16;      ///< of the ground truth, whose shadows are the maps of the picture
+  int repeats = 0;                 ///< with which each view is timed, at full size; 0: none is
   double step_s = 1e-3 * near_frame_step_ms;                                         ///< between timed frames
   std::function<void(const NearView&, const std::vector<JudgedMethod>&)> also = {};  ///< in each view
 };
@@ -28,7 +27,6 @@ struct Comparison {
 enum class Measure : unsigned char {
   flip,        ///< mean FLIP; over that of another method
   worst_flip,  ///< the largest ratio of FLIP over views
-  exact_flip,  ///< against exact shadows
   cost         ///< median of the ratios of milliseconds, in turn
 };
 
@@ -45,7 +43,7 @@ struct MethodRow {
 struct Compared {
   struct Method {
     std::string name;
-    std::vector<double> flip, exact_flip, ms;
+    std::vector<double> flip, ms;
   };
   std::vector<Method> methods;
   std::vector<bool> is_at_crossing;  ///< of each view

@@ -98,7 +98,7 @@ double finished_ms(const std::function<void()>& work) {
 std::vector<ReflectionCost> reflection_costs(stage::Stage& stage, const std::vector<JudgedMethod>& methods,
                                              const Camera& camera, glm::ivec2 size, const Timing& timing) {
   std::vector<ReflectionCost> costs(methods.size());
-  std::vector<double> passes_ms(methods.size()), cars_ms(methods.size()), pictures_ms(methods.size());
+  std::vector<double> passes_ms(methods.size()), cars_ms(methods.size());
   render::Renderer& renderer = stage.renderer();
   for (int repeat = -1, lacking = 0; repeat < timing.repeats;) {  // the first turn makes what is made once
     if (timing.step_s > 0.0) stage.simulation().advance(timing.step_s);
@@ -109,19 +109,14 @@ std::vector<ReflectionCost> reflection_costs(stage::Stage& stage, const std::vec
       renderer.prepare_main_view(camera, size.x, size.y, render::Subjects::moving);
       passes_ms[m] = finished_ms([&] { methods[m].reflections->update(renderer, stage.scene(), camera); });
       cars_ms[m] = finished_ms([&] { renderer.draw_main_view(); });
-      if (!timing.of_frames) continue;
-      renderer.prepare_main_view(camera, size.x, size.y);
-      pictures_ms[m] = passes_ms[m] + finished_ms([&] { renderer.draw_main_view(); });
     }
     const bool has_lacked = supplied(stage, methods);
     if (has_lacked && repeat >= 0) {  // what was timed lacked surroundings: it cost too little
       if (++lacking > max_lacking) fail("methods lack surroundings, however often they are supplied");
       continue;
     }
-    for (std::size_t m = 0; repeat >= 0 && m < methods.size(); ++m) {
+    for (std::size_t m = 0; repeat >= 0 && m < methods.size(); ++m)
       costs[m].ms.push_back(passes_ms[m] + cars_ms[m] - cars_ms.front());
-      if (timing.of_frames) costs[m].frame_ms.push_back(pictures_ms[m]);
-    }
     ++repeat;
   }
   return costs;

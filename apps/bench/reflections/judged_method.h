@@ -55,16 +55,15 @@ Image8 picture_of(stage::Stage& stage, const JudgedMethod& method, const Camera&
 /// The wall clock over `work`, until OpenGL has done all of it, and none that came before it.
 double finished_ms(const std::function<void()>& work);
 
-/// Milliseconds of one method, one sample per repetition.
+/// Milliseconds of the reflections of one method alone, one sample per repetition: of their passes, and what
+/// the pass of the cars takes longer.
 struct ReflectionCost {
-  std::vector<double> ms;  ///< reflections alone: their passes, and what the pass of the cars takes longer
-  std::vector<double> frame_ms;  ///< whole frames, shadows kept
+  std::vector<double> ms;
 };
 
 /// How methods are timed.
 struct Timing {
   int repeats = 1;                            ///< at least 1
-  bool of_frames = false;                     ///< whole frames, too
   double step_s = 1e-3 * near_frame_step_ms;  ///< by which the scene plays on before each turn
 };
 

@@ -24,15 +24,11 @@ constexpr MethodRow quality_rows[]{
     {"flip_ratio_mem_over_rerendered_worst", Measure::worst_flip, "mem", "rerendered"},
     {"flip_ratio_simple_blend_over_rerendered", Measure::flip, "simple_blend", "rerendered"},
     {"flip_ratio_simple_blend_over_rerendered_worst", Measure::worst_flip, "simple_blend", "rerendered"},
-    {"flip_ratio_mem_over_simple_blend", Measure::flip, "mem", "simple_blend"},
     {"flip_ratio_mem_over_box_probes", Measure::flip, "mem", "box"},
-    {"flip_ratio_simple_blend_over_box_probes", Measure::flip, "simple_blend", "box"},
-    {"local_flip_ratio", Measure::flip, "local", "rerendered"}};
+    {"flip_ratio_simple_blend_over_box_probes", Measure::flip, "simple_blend", "box"}};
 constexpr MethodRow traced_rows[]{{"traced_flip", Measure::flip, "traced"},
                                   {"traced_flip_without_reflections", Measure::flip, "none"},
-                                  {"traced_flip_exact_shadows", Measure::exact_flip, "traced"},
-                                  {"traced_cost_over_mem", Measure::cost, "traced", "mem"},
-                                  {"traced_cost_over_rerendered", Measure::cost, "traced", "rerendered"}};
+                                  {"traced_cost_over_mem", Measure::cost, "traced", "mem"}};
 constexpr MethodRow near_rows[]{
     {"near_cost_ratio_rerendered_over_mem", Measure::cost, "best", "mem"},
     {"near_cost_ratio_rerendered_over_local", Measure::cost, "best", "local"},
@@ -45,7 +41,6 @@ constexpr MethodRow other_rows[]{
     {"other_places_flip_ratio_worst", Measure::worst_flip, "mem", "rerendered"},
     {"other_places_flip_ratio_of_simple_blend", Measure::flip, "simple_blend", "rerendered"},
     {"other_places_flip_ratio_of_simple_blend_worst", Measure::worst_flip, "simple_blend", "rerendered"}};
-constexpr MethodRow paper_rows[]{{"paper_cost_ratio_near", Measure::cost, "best", "paper"}};
 
 /// The paper's city, whose maps are kept beside its file.
 scene::Scene city_with_maps(const BenchSetup& setup) {
@@ -83,43 +78,15 @@ struct Placements {
     const std::size_t of_even = maps_enough(coverage(heights, even, points, sharpness), wanted);
     return 100.0 * (1.0 - double(maps_enough(shown, wanted)) / double(of_even));
   }
-  double maps(const std::vector<glm::vec3>& places) const {
-    return double(maps_enough(coverage(heights, places, points, sharpness), wanted));
-  }
 };
 
 }  // namespace
 
-void measure_maps_memory(const BenchSetup& setup, Report& report) {
+void measure_maps_memory(const BenchSetup& /*setup*/, Report& report) {
   const std::vector<glm::vec3> places(54, glm::vec3(0.0f));
   const int side = ReferenceMaps::layer_side(shipped_maps().resolution);
   report.add("maps_mb_54", 1e-6 * double(must(ReferenceMaps::create(places, side)).bytes()));
   report.add("maps_mb_54_compressed", 1e-6 * double(must(ReferenceMaps::create(places, side, true)).bytes()));
-  const scene::Scene city = setup.scene(setup.city() / "paper.xp");
-  for (const auto& [key, cell_m] : {std::pair{"ray_ns_1m", 1.0f}, {"ray_ns_025m", 0.25f}}) {
-    scene::Scene with_cells = city;
-    map_plan(with_cells).cell_m = cell_m;
-    const HeightPyramid heights(heights_of(with_cells));
-    const std::vector<glm::vec3> starts = spread_places(city, heights, 100);
-    constexpr int rays = 200'000;
-    std::vector<double> samples(7);
-    float distances_m = 0.0f;  // used below, so that no ray is left out
-    for (double& sample : samples) {
-      Random random(5);
-      sample = 1e6 / rays * milliseconds([&] {
-                 for (int i = 0; i < rays; ++i) {
-                   const float azimuth = random.uniform(0.0f, 6.2831853f), z = random.uniform(-0.2f, 0.7f);
-                   const glm::vec2 level =
-                       std::sqrt(1.0f - z * z) * glm::vec2(std::cos(azimuth), std::sin(azimuth));
-                   distances_m +=
-                       heights.walk_by_levels(starts[std::size_t(i) % starts.size()], {level, z}, 1000.0f)
-                           .distance_m;
-                 }
-               });
-    }
-    report.add(key, median(samples));
-    report.note(fmt::format("cells of {} m: mean way {:.0f} m", cell_m, distances_m / float(7 * rays)));
-  }
 }
 
 void measure_placement(const BenchSetup& setup, Report& report) {
@@ -141,15 +108,11 @@ void measure_placement(const BenchSetup& setup, Report& report) {
   const Placements plain{heights, points, even, any_sharpness}, sharply{heights, points, even, sharp};
   const std::vector<glm::vec3> by_coverage = place_by_coverage(city, heights, visible).places,
                                shipped = place_for_pictures(city, heights, max_maps).places;
-  report.add("placement_maps", plain.maps(by_coverage));
   report.add("placement_saving_percent_of_visibility", plain.saving_percent(by_coverage));
   report.add("placement_saving_percent_of_visibility_by_chance", plain.saving_percent(shuffled));
-  report.add("placement_maps_sharp", sharply.maps(shipped));
   const double saving = sharply.saving_percent(shipped);
   report.add("placement_saving_percent", saving, minimum(saving),
              {{"placement_saving_percent_by_chance", sharply.saving_percent(shuffled)}});
-  report.note(fmt::format("judged by {} points of another seed; an even spread takes {} maps, sharply {}",
-                          points.size(), plain.maps(even), sharply.maps(even)));
 }
 
 void measure_maps_cost(const BenchSetup& setup, Report& report) {
@@ -158,8 +121,8 @@ void measure_maps_cost(const BenchSetup& setup, Report& report) {
   const Camera camera = view_of_cars(*stage, cars_seen, cars_seen, full_picture, report);
   // What costs least differs least from none, and needs most samples.
   const auto cheap = judged_methods(*stage, {{"none", usual("none")}, {"mem", shipped_maps()}});
-  const auto cheap_costs = reflection_costs(*stage, cheap, camera, full_picture,
-                                            {.repeats = setup.is_quick ? 20 : 60, .of_frames = true});
+  const auto cheap_costs =
+      reflection_costs(*stage, cheap, camera, full_picture, {.repeats = setup.is_quick ? 20 : 60});
   const auto others = judged_methods(*stage, {{"none", usual("none")},
                                               {"rerendered", usual("rerendered_cube_map")},
                                               {"rerendered_lod", usual("rerendered_cube_map", true)},
@@ -173,7 +136,6 @@ void measure_maps_cost(const BenchSetup& setup, Report& report) {
   report.add("cost_ratio_rerendered_over_mem_30", ratio(rerendered, mem));
   // Local maps are drawn for each car, as re-rendered ones are: the control.
   report.add("local_cost_ratio_30", ratio(rerendered, median(costs[3].ms)).value);
-  report.add("frame_ratio_mem_over_none_30", ratio_in_turn(cheap_costs[1].frame_ms, cheap_costs[0].frame_ms));
   report_shown(*stage, cheap[1], camera, full_picture, "cost_30_flip_mem_over_none", report);
 }
 
@@ -219,8 +181,7 @@ void measure_maps_quality(const BenchSetup& setup, Report& report) {
   const Compared result = compared(*stage, {.methods = {{"mem", shipped_maps()},
                                                         {"rerendered", usual("rerendered_cube_map")},
                                                         {"box", usual("box_projected_probe")},
-                                                        {"simple_blend", usual("simple_blend")},
-                                                        {"local", usual("local_environment_maps")}},
+                                                        {"simple_blend", usual("simple_blend")}},
                                             .views = setup.is_quick ? 8 : 20,
                                             .size = setup.is_quick ? full_picture / 2 : full_picture,
                                             .also = note_memory});
@@ -237,16 +198,12 @@ void measure_maps_traced(const BenchSetup& setup, Report& report) {
           reflection_costs(*stage, {methods[0], methods[2]}, view.camera, 2 * full_picture, {})[1]
               .ms.front());
   };
-  // The rays of the method to the sun are exact; the truth's are, too, where it says so.
-  const Compared result = compared(*stage, {.methods = {{"none", usual("none")},
-                                                        {"mem", shipped_maps()},
-                                                        {"traced", usual("traced")},
-                                                        {"rerendered", usual("rerendered_cube_map")}},
-                                            .views = setup.is_quick ? 4 : 20,
-                                            .samples_per_pixel = 64,
-                                            .also_exact_shadows = true,
-                                            .repeats = setup.is_quick ? 3 : 10,
-                                            .also = time_larger});
+  const Compared result = compared(
+      *stage, {.methods = {{"none", usual("none")}, {"mem", shipped_maps()}, {"traced", usual("traced")}},
+               .views = setup.is_quick ? 4 : 20,
+               .samples_per_pixel = 64,
+               .repeats = setup.is_quick ? 3 : 10,
+               .also = time_larger});
   result.report(traced_rows, report);
   const std::vector<double>& mem_ms = result.method("mem").ms;
   report.add(
@@ -273,7 +230,8 @@ void measure_maps_paper(const BenchSetup& setup, Report& report) {
                                        .size = setup.is_quick ? full_picture / 2 : full_picture,
                                        .repeats = 2,
                                        .step_s = step_s});
-  near.report(paper_rows, report);
+  near.report({}, report);
+  report.add("paper_cost_ratio_near", near.value({"", Measure::cost, "best", "paper"}));
   const double flip = near.value({"", Measure::flip, "paper", "best"});
   report.add("paper_flip_ratio", flip, maximum(flip),
              {{"paper_flip_ratio_without_reflections", near.value({"", Measure::flip, "none", "best"})}});

@@ -53,10 +53,9 @@ std::shared_ptr<const TreeLevels> thesis_tree(const SampleCapture& capture, cons
 }
 
 /// Compares with the thesis's tree as the same house draws it, with its cutoff or that which photographs that
-/// are held out choose, as for ours, whichever is better; the control is the thesis's start. Beside it what
-/// is due to opacities alone: those of the projection in the cells, iterations and textures of ours.
-void measure_opacity(const SampleCapture& capture, const ReconstructedTree& made,
-                     const BenchCaptureSize& size, double alpha_rmse_of_ours, Means& means) {
+/// are held out choose, as for ours, whichever is better; the control is the thesis's start.
+void measure_opacity(const SampleCapture& capture, const BenchCaptureSize& size, double alpha_rmse_of_ours,
+                     Means& means) {
   const CellGrid cells = thesis_grid(capture, size.options.grid);
   std::shared_ptr<const TreeLevels> tree = thesis_tree(capture, cells, thesis_opacity(), thesis_cutoff);
   ViewErrors thesis = errors_of(tree, capture.held_out);
@@ -69,19 +68,9 @@ void measure_opacity(const SampleCapture& capture, const ReconstructedTree& made
   OpacityOptions start = thesis_opacity();
   start.iterations = 0;
   const ViewErrors of_start = errors_of(thesis_tree(capture, cells, start, thesis_cutoff), capture.held_out);
-  OpacityOptions projection = thesis_opacity();
-  projection.iterations = size.options.opacity.iterations;
-  const TreeVolume in_our_cells =
-      coloured(made.volume.grid,
-               estimate_opacity(made.volume.grid, capture.views, silhouettes(capture.views), projection)
-                   .extinction_per_m,
-               capture.views);
-  const ViewErrors projected =
-      errors_of(levels_from(in_our_cells, capture.views, TextureMethod::optimised), capture.held_out);
   means.add("psnr_db_22_of_the_thesis", thesis.psnr_db);
   means.add("alpha_rmse_ratio_over_projection", alpha_rmse_of_ours / thesis.alpha_rmse);
   means.add("alpha_rmse_ratio_over_projection_of_the_start", of_start.alpha_rmse / thesis.alpha_rmse);
-  means.add("alpha_rmse_ratio_over_projection_in_our_cells", alpha_rmse_of_ours / projected.alpha_rmse);
 }
 
 /// The volume as from cameras whose distances are wrong by a factor.
@@ -129,7 +118,6 @@ void measure_relighting(const SampleCapture& capture, const ReconstructedTree& m
   const ViewErrors relit = errors_of(tree, light, truth);
   light.sun.direction_to_sun = capture_scene(capture.model, moved).sun.direction_to_sun;
   const ViewErrors wrong = errors_of(tree, light, truth);
-  means.add("relight_flip", relit.flip), means.add("relight_flip_baked", baked.flip);
   means.add("relight_flip_over_baked", relit.flip / baked.flip);
   means.add("relight_flip_over_baked_to_the_wrong_side", wrong.flip / baked.flip);
   const std::vector<TreeView> views =
@@ -178,14 +166,10 @@ void measure_many(const SampleCapture& few, const BenchCaptureSize& size, Means&
   const ViewErrors errors = errors_of(made.levels, capture.held_out);
   means.add("psnr_db_100", errors.psnr_db);
   means.add("ssim_100", errors.ssim);
-  means.add("flip_100", errors.flip);
   const ViewErrors naive =
       errors_of(levels_from(made.volume, capture.views, TextureMethod::naive), capture.held_out);
   means.add("psnr_db_100_naive", naive.psnr_db);
   means.add("ssim_100_naive", naive.ssim);
-  means.add("flip_100_naive", naive.flip);
-  const ViewErrors nothing = errors_of_nothing(capture.held_out);
-  means.add("flip_100_of_an_empty_picture", nothing.flip);
   add_steps(made, "100", means);
 }
 
@@ -204,22 +188,18 @@ void measure_tree(std::string_view name, const BenchSetup& setup, Means& means, 
   means.add("psnr_db_22_naive", naive_left_out.psnr_db);
   const ViewErrors nothing = errors_of_nothing(capture.held_out);
   means.add("psnr_db_22_of_an_empty_picture", nothing.psnr_db);
-  const ViewErrors random =
-      errors_of(levels_from(made.volume, capture.views, TextureMethod::random_texels), capture.held_out);
-  means.add("psnr_db_22_random_texels", random.psnr_db);
   const ViewErrors crossed = errors_of_crossed(capture);
   means.add("psnr_db_22_crossed_billboards", crossed.psnr_db);
   means.add("input_view_psnr_db_naive", naive_seen.psnr_db);
   add_steps(made, "22", means);
   const BillboardTree& tree = made.levels->levels.front();
-  means.add("cells", double(tree.grid.size()));
   if (name == "oak") {
     std::size_t texels = 0;
     for (const BillboardTextures& view : tree.views) texels += view.texels.size();
     report.add("tree_mb", made.megabytes);
     report.add("tree_mb_uncompressed", 1e-6 * double(texels));
   }
-  measure_opacity(capture, made, size, left_out.alpha_rmse, means);
+  measure_opacity(capture, size, left_out.alpha_rmse, means);
   measure_sizes(made.volume, capture.model, means);
   measure_relighting(capture, made, size, means);
   measure_many(capture, size, means);
@@ -280,7 +260,6 @@ void measure_reconstruction(const BenchSetup& setup, Report& report) {
     means.begin_tree(name);
     measure_tree(name, setup, means, report);
   }
-  report.add("iterations", double(OpacityOptions{}.iterations));
   means.report();
 }
 

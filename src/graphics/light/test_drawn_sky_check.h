@@ -12,14 +12,9 @@ struct DrawnSkyError {
   /// The difference to the C++ build of the shader: the largest of a channel, relative to the value or to the
   /// view's mean luminance, whichever is larger.
   double of_build = 0.0;
-  /// The same, relative to the value or to a hundredth of the view's mean luminance.
-  double of_build_to_value = 0.0;
   /// The difference to the model in the same directions: the mean over pixels and channels, relative to the
   /// mean luminance.
   double of_model = 0.0;
-  /// The same of a pixel, relative to its own luminance or to a hundredth of the mean: that of which 99 % of
-  /// all pixels have less. The aureole and the horizon are the rest.
-  double of_model_percentile_99 = 0.0;
   long samples = 0;  ///< channels that were compared
 };
 

@@ -10,7 +10,6 @@ namespace parvis::light {
 /// where one is no number; and how many samples of either side are negative or not finite.
 struct SkyGpuCheck {
   double max_relative_error = 0.0;  ///< to the sky's mean luminance or the value, whichever is larger
-  double max_error_of_value = 0.0;  ///< to the value, or to a hundredth of the mean luminance
   long bad_samples = 0, samples = 0;
 };
 
