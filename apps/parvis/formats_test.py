@@ -9,6 +9,7 @@ import json
 import math
 import pathlib
 import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -306,6 +307,23 @@ class Formats(unittest.TestCase):
             with self.assertRaisesRegex(AssertionError, "is a picture"):
                 read(pathlib.Path(folder), "photo.tif", tiff([100 + i % 8 for i in range(64)], bands=3, photometric=2, kind=1, bits=8))
 
+    def test_pictures_of_telephones_and_of_the_web_are_read(self):
+        if not shutil.which("ffmpeg") or not shutil.which("oiiotool"):
+            self.skipTest("skipped: no ffmpeg or no oiiotool here")
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", "color=red:size=64x48", "-frames:v", "1", "-still-picture", "1", folder / "red.avif"], check=True)
+            textured = gltf(textures=[{"extensions": {"EXT_texture_avif": {"source": 0}}}], images=[{"uri": "red.avif"}], extensionsUsed=["EXT_texture_avif"],
+                            materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], primitive={"material": 0})
+            lines, _ = read(folder, "textured.gltf", textured)
+            self.assertEqual([line for line in lines if line["fate"] in ("left out", "changed")], [])
+            (folder / "photos").mkdir()
+            subprocess.run(["oiiotool", "--pattern", "constant:color=.2,.4,.6", "64x48", "3", "-o", folder / "photos/IMG_1.heic"], check=True)
+            (folder / "photos/IMG_2.HEIC").write_text("no picture")
+            done = subprocess.run([PARVIS, "facade", "calibrate", "photos", "-o", "place"], cwd=folder, capture_output=True, text=True, timeout=240)
+            self.assertIn("IMG_2.HEIC", done.stderr)
+            self.assertIn("holds 1 photographs that can be read", done.stderr)
+
     def test_a_grid_without_a_system_says_so(self):
         with tempfile.TemporaryDirectory() as folder:
             lines, _ = read(pathlib.Path(folder), "no_system.city.json", city_json())
@@ -319,7 +337,7 @@ def area_of(a, b, c):
 
 # Clauses that other tests try, with files that are larger than these.
 ELSEWHERE = [
-    "the plain picture that the file may have stands for them",  # glTF: GltfCompression
+    "the plain picture that the file may have stands for it",  # glTF: GltfCompression
     "skins, morph targets, animations, cameras, lamps", "further sets",  # formats of assimp, whose files are long
     "a picture (red, green, blue) is refused",  # test_a_picture_is_no_terrain
     "tangents follow from the texture",  # glTF: GltfKinds

@@ -24,6 +24,14 @@ std::span<const std::uint8_t> bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
+/// Hands a worker's bytes to its caller.
+Status give(const std::string& bytes, const std::string& name, IsolatedOutput& output) {
+  const std::span<std::byte> to = output.allocate(bytes.size());
+  if (to.size() != bytes.size()) return error("{}: there is no memory for its {} bytes", name, bytes.size());
+  std::memcpy(to.data(), bytes.data(), bytes.size());
+  return Ok{};
+}
+
 /// Runs in the worker: decodes `bytes` into `output`, without another copy of the pixels.
 template <class T>
 Status decode_into(std::string_view bytes, const std::string& name, IsolatedOutput& output) {
@@ -55,6 +63,15 @@ Status decode_file(std::string_view input, IsolatedOutput& output) {
   const std::string name(input.substr(0, input.find('\0')));
   const Result<std::string> bytes = read_file(fs::path(input.substr(name.size() + 1)));
   return bytes ? decode_into<T>(*bytes, name, output) : Status(bytes.errors());
+}
+
+/// The same, as the bytes of a JPEG.
+Status make_jpeg(std::string_view input, IsolatedOutput& output) {
+  const std::string name(input.substr(0, input.find('\0')));
+  const Result<std::string> bytes = read_file(fs::path(input.substr(name.size() + 1)));
+  if (!bytes) return bytes.errors();
+  const Result<std::string> jpeg = openimageio.call(&OpenImageIoFunctions::as_jpeg, bytes_of(*bytes), name);
+  return jpeg ? give(*jpeg, name, output) : Status(jpeg.errors());
 }
 
 /// The picture that `work` makes of a name and of what follows it.
@@ -125,12 +142,7 @@ Status encode_pixels(std::string_view input, IsolatedOutput& output) {
     else
       return openimageio.call(&OpenImageIoFunctions::encode_8, picture, name);
   }();
-  if (!bytes) return bytes.errors();
-  const std::span<std::byte> to = output.allocate(bytes->size());
-  if (to.size() != bytes->size())
-    return error("{}: there is no memory for its {} bytes", name, bytes->size());
-  std::memcpy(to.data(), bytes->data(), bytes->size());
-  return Ok{};
+  return bytes ? give(*bytes, name, output) : Status(bytes.errors());
 }
 
 /// Memory that encoding may take beyond the usual, by the size of the pixels: the slowest format writes 2 MB
@@ -174,6 +186,16 @@ Result<ImageF> read_image_float(const fs::path& file, std::size_t* replaced) {
   const std::size_t count = make_finite(*image);
   if (replaced != nullptr) *replaced = count;
   return image;
+}
+
+Result<std::string> jpeg_of(const fs::path& file) {
+  std::error_code code;
+  const fs::path path = fs::absolute(file, code);
+  const std::string name = file.string();
+  const Result<IsolatedBytes> made =
+      run_isolated(make_jpeg, {name + '\0', path.string()}, name, {.readable = {path}});
+  if (!made) return made.errors();
+  return std::string(reinterpret_cast<const char*>(made->bytes().data()), made->bytes().size());
 }
 
 Result<std::string> encode_image(const Image8& image, const std::string& name) {

@@ -4,6 +4,8 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +15,7 @@
 
 #include "base/checked.h"
 #include "base/colour.h"
+#include "base/descriptor.h"
 #include "base/memory_budget.h"
 #include "base/radiance_header.h"
 
@@ -25,10 +28,17 @@ using namespace std::string_view_literals;
 struct PictureFormat {
   std::string_view name;        ///< OpenImageIO's
   std::string_view extensions;  ///< in lower case, each after a space
-  std::string_view magic;       ///< the file's first bytes, '?' for any; empty: known by extension
+  std::string_view magic;       ///< the file's first bytes, '.' for any; empty: known by extension
+  bool is_read_only = false;    ///< the library reads it out of files alone, and Parvis writes none
 };
 
-constexpr std::array formats{PictureFormat{"png", " png", "\x89PNG\r\n\x1a\n"sv},
+/// Raw files come first, since many of them begin like TIFF.
+constexpr std::array formats{PictureFormat{"raw", " arw cr2 cr3 dng nef orf pef raf rw2 srw", ""sv, true},
+                             PictureFormat{"heif", " heic heif avif", "....ftypheic"sv, true},
+                             PictureFormat{"heif", " heic heif avif", "....ftypheix"sv, true},
+                             PictureFormat{"heif", " heic heif avif", "....ftypmif1"sv, true},
+                             PictureFormat{"heif", " heic heif avif", "....ftypavif"sv, true},
+                             PictureFormat{"png", " png", "\x89PNG\r\n\x1a\n"sv},
                              PictureFormat{"jpeg", " jpg jpeg", "\xff\xd8\xff"sv},
                              PictureFormat{"openexr", " exr", "\x76\x2f\x31\x01"sv},
                              PictureFormat{"hdr", " hdr", "#?"sv},
@@ -36,7 +46,7 @@ constexpr std::array formats{PictureFormat{"png", " png", "\x89PNG\r\n\x1a\n"sv}
                              PictureFormat{"tiff", " tif tiff", "MM\0*"sv},
                              PictureFormat{"bmp", " bmp", "BM"sv},
                              PictureFormat{"gif", " gif", "GIF8"sv},
-                             PictureFormat{"webp", " webp", "RIFF????WEBP"sv},
+                             PictureFormat{"webp", " webp", "RIFF....WEBP"sv},
                              PictureFormat{"targa", " tga", ""sv}};
 
 /// Samples that any picture may have, and those that each byte of its file may stand for: deflate packs a
@@ -54,17 +64,15 @@ bool has_extension(const PictureFormat& format, std::string_view name) {
          (end == format.extensions.size() || format.extensions[end] == ' ');
 }
 
-/// "#?" alone is a wildcard only in the middle of WebP's header, whose length stands there.
 bool begins_with(std::span<const std::uint8_t> bytes, const PictureFormat& format) {
   if (bytes.size() < format.magic.size()) return false;
   for (std::size_t i = 0; i < format.magic.size(); ++i)
-    if (bytes[i] != std::uint8_t(format.magic[i]) && !(format.name == "webp"sv && format.magic[i] == '?'))
-      return false;
+    if (bytes[i] != std::uint8_t(format.magic[i]) && format.magic[i] != '.') return false;
   return true;
 }
 
 /// The format is known by the first bytes; `name`'s extension decides only for formats without such bytes
-/// (TGA). Null for any other.
+/// (TGA, raw files of cameras). Null for any other.
 const PictureFormat* format_of(std::span<const std::uint8_t> bytes, std::string_view name) {
   const auto found = std::ranges::find_if(formats, [&](const PictureFormat& format) {
     return format.magic.empty() ? has_extension(format, name) : begins_with(bytes, format);
@@ -76,7 +84,7 @@ const PictureFormat* format_of(std::span<const std::uint8_t> bytes, std::string_
 /// such files.
 const PictureFormat* format_to_write(std::string_view name) {
   const auto found = std::ranges::find_if(formats, [&](const PictureFormat& format) {
-    return format.name != "gif" && has_extension(format, name);
+    return format.name != "gif" && !format.is_read_only && has_extension(format, name);
   });
   return found == formats.end() ? nullptr : &*found;
 }
@@ -114,15 +122,29 @@ void spread_channels(const T* in, int from, std::size_t count, T* out, int to, T
 
 Error not_a_picture(const std::string& name, std::string reason) {
   std::ranges::replace(reason, '\n', ' ');
-  return error("{}: cannot be read as a picture{}; expected PNG, JPEG, EXR, HDR, TIFF, BMP, GIF, WebP or TGA",
-               name, reason.empty() ? "" : fmt::format(" ({})", reason));
+  return error(
+      "{}: cannot be read as a picture{}; expected PNG, JPEG, EXR, HDR, TIFF, BMP, GIF, WebP, HEIC, "
+      "AVIF, TGA or a camera's raw file",
+      name, reason.empty() ? "" : fmt::format(" ({})", reason));
 }
 
-/// A picture that is open, the bytes that it reads, and its format's name for its errors.
+/// A picture that is open, and the bytes or the file in memory that it reads.
 struct OpenPicture {
+  Descriptor file;
   std::unique_ptr<OIIO::Filesystem::IOMemReader> reader;
   std::unique_ptr<OIIO::ImageInput> input;
 };
+
+/// A file of these bytes that has no name, for libraries that read nothing else; none where memory ends.
+Descriptor file_in_memory(std::span<const std::uint8_t> bytes) {
+  Descriptor file(memfd_create("picture", MFD_CLOEXEC));
+  while (!bytes.empty()) {
+    const ssize_t written = write(file.get(), bytes.data(), bytes.size());
+    if (written <= 0) return Descriptor();
+    bytes = bytes.subspan(std::size_t(written));
+  }
+  return file;
+}
 
 /// One at a time: a JPEG's colour profile is read by a converter that all threads of OpenImageIO 2.4 share,
 /// and two that open pictures at once crash now and then. Only the header is read here; pixels are decoded
@@ -133,15 +155,21 @@ Result<OpenPicture> open_picture(std::span<const std::uint8_t> bytes, const std:
   if (format == nullptr) return not_a_picture(name, bytes.empty() ? "it is empty" : "");
   const std::lock_guard lock(opening);
   OpenPicture open;
-  open.reader =
-      std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
   open.input = OIIO::ImageInput::create(std::string(format->name));
-  if (!open.input || !open.input->set_ioproxy(open.reader.get()))
-    return not_a_picture(name, OIIO::geterror());
+  if (!open.input) return not_a_picture(name, OIIO::geterror());
+  std::string file_name = "picture." + std::string(format->extensions.substr(1, 3));
+  if (format->is_read_only) {
+    open.file = file_in_memory(bytes);
+    if (!open.file) return error("{}: there is no memory for its {} bytes", name, bytes.size());
+    file_name = fmt::format("/proc/self/fd/{}", open.file.get());
+  } else {
+    open.reader = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::uint8_t*>(bytes.data()),
+                                                                  bytes.size());
+    if (!open.input->set_ioproxy(open.reader.get())) return not_a_picture(name, OIIO::geterror());
+  }
   // A palette's transparency and premultiplication are the file's business: ask for plain colours.
   OIIO::ImageSpec spec, configuration;
   configuration.attribute("oiio:UnassociatedAlpha", 1);
-  const std::string file_name = "picture." + std::string(format->extensions.substr(1, 3));
   if (!open.input->open(file_name, spec, configuration)) {
     const std::string_view front(reinterpret_cast<const char*>(bytes.data()),
                                  std::min<std::size_t>(bytes.size(), 4096));
@@ -232,6 +260,35 @@ Status decode(std::span<const std::uint8_t> bytes, const std::string& name, cons
   return Ok{};
 }
 
+/// Pixels and EXIF of a picture of any format, as JPEG.
+Result<std::string> as_jpeg(std::span<const std::uint8_t> bytes, const std::string& name) {
+  use_one_thread();
+  constexpr int channels = 4, quality = 95;
+  Result<OpenPicture> open = open_picture(bytes, name);
+  if (!open) return open.errors();
+  OIIO::ImageInput& input = *open->input;
+  OIIO::ImageSpec spec = input.spec();
+  const auto needed = checked_product(
+      {std::uint64_t(spec.width), std::uint64_t(spec.height), std::uint64_t(spec.nchannels + channels)});
+  if (Status status =
+          check_memory(needed, fmt::format("{}: its {} x {} pixels", name, spec.width, spec.height));
+      !status)
+    return status.errors();
+  std::vector<std::uint8_t> pixels(std::size_t(spec.width) * std::size_t(spec.height) * channels);
+  if (!read_pixels(input, pixels.data(), channels, std::uint8_t{255}))
+    return error("{}: the picture is damaged or cut short ({})", name, input.geterror());
+  spec.nchannels = 3;
+  spec.channelnames = {"R", "G", "B"};
+  spec.set_format(OIIO::TypeDesc::UINT8);
+  spec.attribute("CompressionQuality", quality);
+  const auto output = OIIO::ImageOutput::create("jpeg");
+  OIIO::Filesystem::IOVecOutput jpeg;
+  if (!output || !output->set_ioproxy(&jpeg) || !output->open("picture.jpg", spec) ||
+      !output->write_image(OIIO::TypeDesc::UINT8, pixels.data(), channels) || !output->close())
+    return error("{}: cannot be encoded ({})", name, output ? output->geterror() : OIIO::geterror());
+  return std::string(jpeg.buffer().begin(), jpeg.buffer().end());
+}
+
 template <class T>
 Result<std::string> encode(const PictureView<T>& picture, const std::string& name) {
   use_one_thread();
@@ -273,6 +330,6 @@ Result<TextCoverage> cover_text(const std::string& text, int height_px, const st
 }  // namespace
 }  // namespace parvis
 
-PARVIS_MODULE(parvis::OpenImageIoFunctions){parvis::decode<std::uint8_t>, parvis::decode<float>,
-                                            parvis::encode<std::uint8_t>, parvis::encode<float>,
-                                            parvis::cover_text};
+PARVIS_MODULE(parvis::OpenImageIoFunctions){
+    parvis::decode<std::uint8_t>, parvis::decode<float>, parvis::encode<std::uint8_t>,
+    parvis::encode<float>,        parvis::as_jpeg,       parvis::cover_text};

@@ -53,6 +53,8 @@ struct OpenImageIoFunctions {
   DecodePicture<float>* decode_float;
   EncodePicture<std::uint8_t>* encode_8;
   EncodePicture<float>* encode_float;
+  /// Bytes of any format that is read as a JPEG of 8 bits, with the EXIF that they hold.
+  Result<std::string> (*as_jpeg)(std::span<const std::uint8_t> bytes, const std::string& name);
   /// Draws one line, `height_px` high, in the font of a file.
   Result<TextCoverage> (*cover_text)(const std::string& text, int height_px, const std::string& font_file);
 };

@@ -17,6 +17,7 @@
 #include "capture/photographs/camera_files.h"
 #include "capture/photographs/colmap_database.h"
 #include "capture/photographs/colmap_features.h"
+#include "capture/photographs/developed.h"
 #include "capture/photographs/neighbours.h"
 #include "capture/photographs/picture.h"
 #include "capture/photographs/picture_header.h"
@@ -66,8 +67,6 @@ Pictures usable_pictures(const fs::path& folder, Errors& problems) {
     identity += fmt::format("{} {} {}\n", name, fs::file_size(folder / name, ignored),
                             fs::last_write_time(folder / name, ignored).time_since_epoch().count());
   }
-  const Errors unread = unread_pictures(folder);
-  problems.insert(problems.end(), unread.begin(), unread.end());
   pictures.hash = identity;
   return pictures;
 }
@@ -355,14 +354,18 @@ Result<LoadedSet> reconstruct(const CalibrationJob& job, const Pictures& picture
 
 }  // namespace
 
-Result<LoadedSet> calibrate(const CalibrationJob& job) {
+Result<LoadedSet> calibrate(const CalibrationJob& asked) {
+  CalibrationJob job = asked;
   // Asked before COLMAP's long run, and again after it: somebody may have changed the file meanwhile.
   if (const Result<MasksAndGains> readable = masks_and_gains(job.folder); !readable) return readable.errors();
-  Errors problems;
+  const Result<DevelopedFolder> developed_pictures = developed(job.pictures, job.folder / "developed");
+  if (!developed_pictures) return developed_pictures.errors();
+  job.pictures = developed_pictures->folder;
+  Errors problems = developed_pictures->problems;
   const Pictures pictures = usable_pictures(job.pictures, problems);
   if (pictures.names.size() < 2) {
     problems.push_back(error("{}: holds {} photographs that can be read; expected 2 or more",
-                             job.pictures.string(), pictures.names.size()));
+                             asked.pictures.string(), pictures.names.size()));
     return problems;
   }
   const WorkFolder work{job.folder / "colmap"};

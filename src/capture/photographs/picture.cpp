@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <set>
 #include <unordered_set>
@@ -126,7 +125,10 @@ std::string lower_extension(const fs::path& file) {
 }  // namespace
 
 std::vector<std::string> picture_names(const fs::path& folder) {
-  static const std::set<std::string> extensions{".jpg", ".jpeg", ".png"};
+  return picture_names(folder, {".jpg", ".jpeg", ".png"});
+}
+
+std::vector<std::string> picture_names(const fs::path& folder, const std::set<std::string>& extensions) {
   std::vector<std::string> names;
   std::error_code code;
   for (auto entry = fs::recursive_directory_iterator(folder, code);
@@ -140,33 +142,6 @@ std::vector<std::string> picture_names(const fs::path& folder) {
   }
   std::ranges::sort(names);
   return names;
-}
-
-Errors unread_pictures(const fs::path& folder) {
-  static const std::set<std::string> extensions{".heic", ".heif", ".avif", ".cr2",  ".cr3", ".nef",
-                                                ".arw",  ".dng",  ".orf",  ".rw2",  ".raf", ".pef",
-                                                ".srw",  ".webp", ".tif",  ".tiff", ".bmp"};
-  constexpr std::size_t max_named = 3;
-  std::map<std::string, std::vector<std::string>> by_kind;
-  std::error_code code;
-  for (auto entry = fs::recursive_directory_iterator(folder, code);
-       !code && entry != fs::recursive_directory_iterator(); entry.increment(code)) {
-    const std::string extension = lower_extension(entry->path());
-    if (entry->is_regular_file(code) && extensions.contains(extension))
-      by_kind[extension.substr(1)].push_back(entry->path().lexically_relative(folder).generic_string());
-  }
-  Errors problems;
-  for (auto& [kind, names] : by_kind) {
-    std::ranges::sort(names);
-    std::string first;
-    for (std::size_t i = 0; i < std::min(names.size(), max_named); ++i)
-      first += (i > 0 ? ", " : "") + names[i];
-    problems.push_back(
-        error("{}: {} pictures of the format {} are not read ({}{}); save them as JPEG, in full size and "
-              "with their EXIF, or as PNG",
-              folder.string(), names.size(), kind, first, names.size() > max_named ? ", ..." : ""));
-  }
-  return problems;
 }
 
 void fit_to_files(LoadedSet& loaded, const fs::path& picture_folder) {

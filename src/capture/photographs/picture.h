@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,12 +36,11 @@ Picture undistorted(const Photograph& photograph, Image8 image);
 /// read.
 void fit_to_files(LoadedSet& loaded, const std::filesystem::path& picture_folder);
 
-/// The pictures in a folder and below it, as names relative to it with '/', in order. Hidden files are left
-/// out.
+/// The JPEG and PNG pictures in a folder and below it, as names relative to it with '/', in order. Hidden
+/// files are left out.
 std::vector<std::string> picture_names(const std::filesystem::path& folder);
-
-/// A line for each format of pictures below a folder that people hand over and that is not read (HEIC, raw
-/// formats of cameras), with their number and the first names.
-Errors unread_pictures(const std::filesystem::path& folder);
+/// The same of files with other extensions (".heic", in lower case), whichever case theirs are in.
+std::vector<std::string> picture_names(const std::filesystem::path& folder,
+                                       const std::set<std::string>& extensions);
 
 }  // namespace parvis::photographs

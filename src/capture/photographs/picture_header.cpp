@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/file_front.h"
+#include "base/image_io.h"
 
 namespace parvis::photographs {
 namespace {
@@ -11,6 +12,9 @@ namespace {
 constexpr unsigned char end_of_image = 0xd9, start_of_scan = 0xda, application_1 = 0xe1;
 constexpr std::size_t header_bytes = std::size_t(1)
                                      << 20;  // EXIF with its thumbnail, profiles, then the size
+
+bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xff\xd8"); }
+bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\n"); }
 
 unsigned char byte_at(std::string_view bytes, std::size_t at) {
   return static_cast<unsigned char>(bytes[at]);
@@ -134,9 +138,8 @@ std::optional<PictureHeader> png_header(std::string_view bytes) {
 }  // namespace
 
 Result<PictureHeader> parse_picture_header(std::string_view bytes, const std::string& name) {
-  const bool is_jpeg = bytes.starts_with("\xff\xd8"), is_png = bytes.starts_with("\x89PNG\r\n\x1a\n");
-  if (!is_jpeg && !is_png) return error("{}: is neither JPEG nor PNG", name);
-  const std::optional<PictureHeader> header = is_jpeg ? jpeg_header(bytes) : png_header(bytes);
+  if (!is_jpeg(bytes) && !is_png(bytes)) return error("{}: is neither JPEG nor PNG", name);
+  const std::optional<PictureHeader> header = is_jpeg(bytes) ? jpeg_header(bytes) : png_header(bytes);
   if (!header || header->width < 1 || header->height < 1)
     return error("{}: the picture is damaged or cut short: its size is missing", name);
   return *header;
@@ -145,7 +148,10 @@ Result<PictureHeader> parse_picture_header(std::string_view bytes, const std::st
 Result<PictureHeader> read_picture_header(const std::filesystem::path& file) {
   const Result<std::string> bytes = read_front(file, header_bytes);
   if (!bytes) return bytes.errors();
-  return parse_picture_header(*bytes, file.string());
+  if (is_jpeg(*bytes) || is_png(*bytes)) return parse_picture_header(*bytes, file.string());
+  const Result<std::string> jpeg = jpeg_of(file);
+  if (!jpeg) return jpeg.errors();
+  return parse_picture_header(*jpeg, file.string());
 }
 
 bool is_whole_jpeg(std::string_view bytes) {

@@ -20,10 +20,10 @@ struct PictureHeader {
   std::string taken;  ///< EXIF, by the camera's clock: "2026:06:21 14:15:00"; empty: not given
 };
 
-/// The header of a JPEG (ITU-T T.81, annex B; EXIF: CIPA DC-008) or PNG. Errors name the file: neither of
-/// them, damaged.
+/// The header of a JPEG (ITU-T T.81, annex B; EXIF: CIPA DC-008) or PNG; pictures of other formats are
+/// decoded for it. Errors name the file: no picture, damaged.
 Result<PictureHeader> read_picture_header(const std::filesystem::path& file);
-/// The same of a file's bytes, or of its first ones; `name` stands in errors.
+/// The same of the bytes of a JPEG or PNG, or of their first ones; `name` stands in errors.
 Result<PictureHeader> parse_picture_header(std::string_view bytes, const std::string& name);
 
 /// True for bytes that are no JPEG, and for a JPEG whose segments lead to its end marker: decoders fill the

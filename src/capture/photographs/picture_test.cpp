@@ -47,21 +47,6 @@ TEST(Picture, TooManyPixelsAreRefusedByTheirHeader) {
       << to_string(read.errors());
 }
 
-TEST(Picture, FormatsThatAreNotReadAreNamedWithTheirNumber) {
-  const TestFolder folder;
-  for (const char* name :
-       {"a.jpg", "IMG_1.HEIC", "IMG_2.heic", "more/IMG_3.heic", "IMG_4.heic", "raw.NEF", "notes.txt"})
-    folder.write(name, "?");
-  const Errors problems = unread_pictures(folder.path());
-  ASSERT_EQ(problems.size(), 2u) << to_string(problems);
-  EXPECT_NE(problems[0].message.find(
-                "4 pictures of the format heic are not read (IMG_1.HEIC, IMG_2.heic, IMG_4.heic, ...)"),
-            std::string::npos)
-      << problems[0].message;
-  EXPECT_NE(problems[1].message.find("raw.NEF"), std::string::npos) << problems[1].message;
-  EXPECT_EQ(picture_names(folder.path()), std::vector<std::string>{"a.jpg"});
-}
-
 TEST(Picture, ExifSaysHowItWasHeldAndHowFarItWasZoomed) {
   // A JPEG of 3 x 2 pixels' header: EXIF (little-endian) with orientation 6 and, below, 35 mm and 52 mm.
   const std::string tiff(

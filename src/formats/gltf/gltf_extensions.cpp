@@ -9,7 +9,7 @@
 namespace parvis::scene {
 namespace {
 
-constexpr std::array<std::string_view, 15> read_ones{"KHR_texture_transform",
+constexpr std::array<std::string_view, 16> read_ones{"KHR_texture_transform",
                                                      "KHR_materials_clearcoat",
                                                      "KHR_materials_emissive_strength",
                                                      "KHR_materials_ior",
@@ -23,7 +23,8 @@ constexpr std::array<std::string_view, 15> read_ones{"KHR_texture_transform",
                                                      "KHR_mesh_primitive_restart",
                                                      "EXT_mesh_gpu_instancing",
                                                      "KHR_node_visibility",
-                                                     "EXT_texture_webp"};
+                                                     "EXT_texture_webp",
+                                                     "EXT_texture_avif"};
 
 /// Decides whether a file that requires an extension is shown without it: looks of surfaces and lamps, and
 /// pictures for which a checker stands. They are named in the account.

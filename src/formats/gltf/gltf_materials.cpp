@@ -98,10 +98,11 @@ class MaterialReader {
 
   /// The picture of a texture: that of an extension whose format is read, else the one that all readers know.
   int image_of(const Json& texture) {
-    const Json& webp = gltf_extension(texture, "EXT_texture_webp");
-    if (const int image = file_.index(webp, "source", "images"); image >= 0) return image;
+    for (const char* read : {"EXT_texture_webp", "EXT_texture_avif"})
+      if (const int image = file_.index(gltf_extension(texture, read), "source", "images"); image >= 0)
+        return image;
     const int plain = file_.index(texture, "source", "images");
-    for (const char* unread : {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
+    for (const char* unread : {"KHR_texture_basisu", "MSFT_texture_dds"}) {
       const int image = file_.index(gltf_extension(texture, unread), "source", "images");
       if (image < 0) continue;
       if (plain < 0) return image;

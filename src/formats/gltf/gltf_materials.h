@@ -1,6 +1,6 @@
-// Materials of glTF 2.0 (section 3.9), with KHR_texture_transform, EXT_texture_webp, _clearcoat,
-// _emissive_strength, _transmission, _ior and _volume, and their pictures. What transmits light and has a
-// volume is solid glass, else a pane.
+// Materials of glTF 2.0 (section 3.9), with KHR_texture_transform, EXT_texture_webp, _avif,
+// KHR_materials_clearcoat, _emissive_strength, _transmission, _ior and _volume, and their pictures. What
+// transmits light and has a volume is solid glass, else a pane.
 #pragma once
 
 #include "formats/gltf/gltf_file.h"

@@ -1,7 +1,7 @@
 // glTF 2.0 (.gltf, .glb) to a Model: meshes, nodes, materials with KHR_texture_transform, _clearcoat,
-// _emissive_strength and _transmission, EXT_texture_webp, EXT_mesh_gpu_instancing, KHR_node_visibility,
-// EXT_ and KHR_meshopt_compression, KHR_draco_mesh_compression, vertex colours, animations, skins and morph
-// targets (these parts stand as they do at rest, and know how they deform).
+// _emissive_strength and _transmission, EXT_texture_webp and _avif, EXT_mesh_gpu_instancing,
+// KHR_node_visibility, EXT_ and KHR_meshopt_compression, KHR_draco_mesh_compression, vertex colours,
+// animations, skins and morph targets (these parts stand as they do at rest, and know how they deform).
 #pragma once
 
 #include <filesystem>
