@@ -283,6 +283,8 @@ void add_plan(CLI::App& app, Chosen& chosen) {
       ->add_option("--view", arguments->council.views,
                    "A camera of the scene for --council (default: all of them); may repeat")
       ->allow_extra_args(false);
+  command->add_option("--link", arguments->council.link,
+                      "An address for --council, drawn as a QR code: of a shared site, say");
   command->add_option("--sun-day", arguments->council.day, "Day of the hours of sun of --council")
       ->capture_default_str();
   CLI::Option* scale =

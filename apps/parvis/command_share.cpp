@@ -43,6 +43,8 @@ void add_share(CLI::App& app, Chosen& chosen) {
   command->add_option(
       "--notes", arguments->site.notes,
       "Text of the authors (UTF-8); a paragraph that begins with [NAME] is about that view or scenario");
+  command->add_option("--link", arguments->site.link,
+                      "The address under which the site will stand: its QR code is written as link.svg");
   command->add_option("--texture-size", arguments->site.max_texture_px, "Longest side of textures in pixels")
       ->check(CLI::Range(64, 8192))
       ->capture_default_str();

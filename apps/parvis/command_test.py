@@ -964,9 +964,13 @@ class Plans(InAFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("1 views, plan at 1:100, 2 objects that differ, hours of sun on 21 March 2026", done.stdout)
         self.assertTrue(sheet.read_bytes().startswith(b"%PDF"))
+        plain = sheet.stat().st_size
+        self.assertEqual(run("plan", scene, "--design", "new", "--compare", "old", "--council", sheet, "--link",
+                             "https://example.org/square").returncode, 0)
+        self.assertGreater(sheet.stat().st_size, plain, "its QR code")
         sheet.unlink()
         for wrong, said in ((["--view", "balcony"], "street"), (["--sun-day", "2026-02-30"], "not a date"),
-                            (["--design", "old"], "itself"), (["--scale", "1"], "1:5")):
+                            (["--design", "old"], "itself"), (["--scale", "1"], "1:5"), (["--link", "my square"], "https://")):
             refused = run("plan", scene, *(["--design", "new"] if "--design" not in wrong else []),
                           "--compare", "old", "--council", sheet, *wrong)
             self.assertEqual(refused.returncode, 1, wrong)

@@ -102,6 +102,11 @@ Status write_council(stage::Stage& stage, const design::Session& session, const 
   sheet.words = design::words_in(options.language);
   const auto period = period_of(simulation.scene, options.day, sheet.words);
   if (!period) return period.errors();
+  if (!options.link.empty()) {
+    Result<plan_drawing::QrCode> code = plan_drawing::qr_code(options.link);
+    if (!code) return code.errors();
+    sheet.link = *std::move(code);
+  }
   const auto labelled = [&](std::vector<design::PlacedObject> objects) {
     return design::labelled_in(options.language, std::move(objects));
   };

@@ -16,6 +16,7 @@ struct CouncilOptions {
   std::filesystem::path file;
   std::string before;              ///< the design that is compared with
   std::string title, subtitle;     ///< of the pages
+  std::string link;                ///< an address, drawn as a QR code; empty: none
   std::vector<std::string> views;  ///< names of cameras; empty: all of the scene
   std::optional<double> scale;     ///< of the plan, 1 : scale; none: the largest usual one that fits
   std::string day = "2026-03-21";  ///< of the hours of sun

@@ -6,17 +6,29 @@
 #include <numeric>
 
 namespace parvis::viewer {
+namespace {
 
-void FrameStatistics::add(double frame_s, std::span<const gl::PassTime> passes) {
-  constexpr double share_of_new = 0.1;
-  frames_ms_[count_++ % frames_kept] = float(1000.0 * frame_s);
+/// Goes a part of the way from the old times to new ones; others than before are taken as they are.
+void smooth(std::vector<gl::PassTime>& smoothed, std::span<const gl::PassTime> passes) {
+  constexpr double weight_of_new = 0.1;
   const auto has_same_name = [](const gl::PassTime& a, const gl::PassTime& b) { return a.name == b.name; };
-  if (!std::equal(passes.begin(), passes.end(), passes_.begin(), passes_.end(), has_same_name)) {
-    passes_.assign(passes.begin(), passes.end());
+  if (!std::equal(passes.begin(), passes.end(), smoothed.begin(), smoothed.end(), has_same_name)) {
+    smoothed.assign(passes.begin(), passes.end());
     return;
   }
   for (std::size_t i = 0; i < passes.size(); ++i)
-    passes_[i].seconds += share_of_new * (passes[i].seconds - passes_[i].seconds);
+    smoothed[i].seconds += weight_of_new * (passes[i].seconds - smoothed[i].seconds);
+}
+
+}  // namespace
+
+void FrameStatistics::add(double frame_s, std::span<const gl::PassTime> passes) {
+  frames_ms_[count_++ % frames_kept] = float(1000.0 * frame_s);
+  smooth(passes_, passes);
+}
+
+void FrameStatistics::add_on_processor(std::span<const gl::PassTime> passes) {
+  smooth(passes_on_processor_, passes);
 }
 
 std::vector<float> FrameStatistics::frames_ms() const {

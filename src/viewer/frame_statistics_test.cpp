@@ -38,6 +38,16 @@ TEST(FrameStatistics, SmoothPasses) {
   EXPECT_EQ(statistics.passes()[0].seconds, 0.001);
 }
 
+TEST(FrameStatistics, WhatTheProgramDoesIsApartFromThePasses) {
+  FrameStatistics statistics;
+  const std::vector<gl::PassTime> pass{{"picture", 0.020}}, people{{"people", 0.004}};
+  statistics.add(0.03, pass);
+  statistics.add_on_processor(people);
+  ASSERT_EQ(statistics.passes().size(), 1u);
+  ASSERT_EQ(statistics.passes_on_processor().size(), 1u);
+  EXPECT_EQ(statistics.passes_on_processor()[0].seconds, 0.004);
+}
+
 TEST(FrameStatistics, RatesBelowOneAreShownAsSuch) {
   EXPECT_EQ(frame_rate(0.0), "");
   EXPECT_EQ(frame_rate(41.7), "24 per second");

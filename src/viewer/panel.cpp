@@ -229,6 +229,9 @@ void Panel::draw_processes(Visit& visit) {
 void Panel::draw_sound(Hearing& hearing) {
   rows_.heading("Sound");
   rows_.value("Sources", fmt::format("{}", hearing.sounds()));
+  if (const auto [core_fraction, voices] = hearing.cost(); voices > 0)
+    rows_.value("Mixing", fmt::format("{:.1f} % of a core, {:.2f} ms per second and voice",
+                                      100.0 * core_fraction, 1e3 * core_fraction / double(voices)));
   bool is_muted = hearing.is_muted();
   if (rows_.flag("Muted", is_muted, "the key M does the same")) hearing.mute(is_muted);
 }
@@ -252,6 +255,10 @@ void Panel::draw_statistics(Visit& visit, const FrameStatistics& statistics) {
   }
   if (statistics.passes().empty()) rows_.remark("None has been timed yet.");
   if (draws_on_processor_) rows_.remark("Software driver: of one frame in sixteen, by the clock.");
+
+  if (!statistics.passes_on_processor().empty()) rows_.heading("On the CPU");
+  for (const gl::PassTime& pass : statistics.passes_on_processor())
+    rows_.value(pass.name, fmt::format("{:.2f} ms", 1000.0 * pass.seconds));
 
   const render::DrawStatistics& drawn = visit.stage().renderer().statistics();
   rows_.heading("Main view");

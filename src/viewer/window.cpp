@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 
+#include <array>
 #include <chrono>
 
 #include "base/image_io.h"
@@ -146,7 +147,6 @@ class Frames {
   }
 
   Status run() {
-    using Clock = std::chrono::steady_clock;
     Clock::time_point last = Clock::now(), settled = last;
     for (int frame = 1;; ++frame) {
       const Clock::time_point now = Clock::now();
@@ -159,10 +159,15 @@ class Frames {
       Controls controls = input_.poll(double(seconds));
       if (devices_) move_by_devices(controls, double(seconds));
       const glm::vec3 stood = visit_.camera().position_in_world();
+      const Clock::time_point stepped = Clock::now();
       visit_.step(controls, seconds, planning_.holds_things());
+      const Clock::time_point moved = Clock::now();
       feeling_.step(visit_, planning_, controls, stood, seconds, devices_ ? &*devices_ : nullptr);
       if (study_) study_->add_frame(double(seconds));
+      const Clock::time_point listened = Clock::now();
       hear(double(seconds));
+      statistics_.add_on_processor(std::array{pass_of("people, traffic, events", stepped, moved),
+                                              pass_of("sound", listened, Clock::now())});
       draw(double(seconds));
       const bool is_last =
           glfwWindowShouldClose(window_) || frame == options_.max_frames || (study_ && study_->has_ended());
@@ -182,8 +187,13 @@ class Frames {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
   static constexpr int settling_frames = 30;
   static constexpr double rest_s = 0.1;  ///< between frames at rest: the ray tracer needs the processor
+
+  static gl::PassTime pass_of(const char* name, Clock::time_point begin, Clock::time_point end) {
+    return {name, std::chrono::duration<double>(end - begin).count()};
+  }
 
   /// A scene that can be felt needs a gamepad; a file of devices may ask for more.
   void open_devices() {
@@ -259,6 +269,11 @@ class Frames {
                frames, frames / seconds, 100.0 * visit_.stage().drawn_share());
     for (const gl::PassTime& pass : visit_.stage().pass_times().latest())
       fmt::print("  {}: {:.0f} ms\n", pass.name, 1e3 * pass.seconds);
+    for (const gl::PassTime& pass : statistics_.passes_on_processor())
+      fmt::print("  {}: {:.1f} ms\n", pass.name, 1e3 * pass.seconds);
+    if (const auto [core_fraction, voices] = hearing_.cost(); voices > 0)
+      fmt::print("  mixing beside: {:.1f} % of a core, {} voices, {:.4f} ms per second and voice\n",
+                 100.0 * core_fraction, voices, 1e3 * core_fraction / double(voices));
   }
 
   /// Says in the window's title how far the picture at rest is refined.

@@ -29,6 +29,8 @@ class Hearing {
   void mute(bool is_muted) { is_muted_ = is_muted; }
   /// How many sounds are heard.
   std::size_t sounds() const { return sounds_; }
+  /// The cost of mixing; nothing where a server mixes.
+  sound::Playback::Cost cost() const { return playback_ ? playback_->cost() : sound::Playback::Cost(); }
   /// The latest message to the visitor that was not taken yet; empty for none.
   std::string take_message();
 

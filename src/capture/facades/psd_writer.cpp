@@ -141,20 +141,18 @@ Bytes layer_section(const PsdPicture& picture) {
 }
 
 Status check_sizes(const PsdPicture& picture, const std::string& name) {
-  Errors errors;
   if (picture.width < 1 || picture.height < 1 || picture.width > max_psd_side ||
       picture.height > max_psd_side)
-    errors.push_back(error("{}: a PSD is 1 to {} pixels wide and high, not {} x {}", name, max_psd_side,
-                           picture.width, picture.height));
+    return error("{}: a PSD is 1 to {} pixels wide and high, not {} x {}", name, max_psd_side, picture.width,
+                 picture.height);
   if (picture.layers.size() > 8000)
-    errors.push_back(error("{}: {} layers; image editors open at most 8000; merge objects of the model", name,
-                           picture.layers.size()));
+    return error("{}: {} layers; image editors open at most 8000; merge objects of the model", name,
+                 picture.layers.size());
   std::size_t bytes = 0;
   for (const PsdLayer& layer : picture.layers) bytes += layer.pixels.pixels.size() + layer.mask.pixels.size();
   if (bytes > std::size_t(2'000'000'000))
-    errors.push_back(error("{}: the layers have {} million bytes, a PSD holds 2000; use a smaller photograph",
-                           name, bytes / 1'000'000));
-  if (!errors.empty()) return errors;
+    return error("{}: the layers have {} million bytes, a PSD holds 2000; use a smaller photograph", name,
+                 bytes / 1'000'000);
   return Ok{};
 }
 

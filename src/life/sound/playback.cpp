@@ -89,9 +89,22 @@ std::size_t Playback::moments() const {
   return moments_;
 }
 
+Playback::Cost Playback::cost() const {
+  const std::scoped_lock lock(mutex_);
+  return cost_;
+}
+
 std::string Playback::take_message() {
   const std::scoped_lock lock(mutex_);
   return std::exchange(message_, {});
+}
+
+void Playback::note_cost(double mixing_s, std::size_t voices) {
+  const std::scoped_lock lock(mutex_);
+  const double fraction = mixing_s / device_moment_s;
+  cost_.core_fraction =
+      cost_.voices == 0 ? fraction : std::lerp(cost_.core_fraction, fraction, device_moment_s);
+  cost_.voices = voices;
 }
 
 void Playback::say(std::string text) {
@@ -124,6 +137,7 @@ void Playback::run() {
     const std::vector<Bed> beds = beds_;
     const bool is_muted = is_muted_;
     lock.unlock();
+    const auto began = std::chrono::steady_clock::now();
 
     for (HeardSound& sound : sounds) {
       sound.emitted_s = now_s - sound.emitted_s;
@@ -138,6 +152,7 @@ void Playback::run() {
       for (std::size_t i = 0; i < channel.size(); ++i)
         channel[i] *= std::lerp(bed_gain, next_gain, float(i) / float(device_moment));
     bed_gain = next_gain;
+    note_cost(std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(), sounds.size());
     if (const Status status = device->play(streams, {channels[0], channels[1]}); !status) {
       device.reset();
       has_failed = true;

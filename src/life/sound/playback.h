@@ -34,6 +34,12 @@ class Playback {
 
   /// The latest message to the visitor that was not taken yet; empty for none.
   std::string take_message();
+  /// The fraction of a core that mixing takes, smoothed over a second, and the voices that were mixed last.
+  struct Cost {
+    double core_fraction = 0.0;
+    std::size_t voices = 0;
+  };
+  Cost cost() const;
   /// Moments played so far.
   std::size_t moments() const;
 
@@ -47,6 +53,7 @@ class Playback {
   void run();
   std::vector<HeardSound> sounds_at(double now_s) const;
   void say(std::string text);
+  void note_cost(double mixing_s, std::size_t voices);
 
   OpenDevice open_;
   double gain_, retry_s_;
@@ -57,6 +64,7 @@ class Playback {
   bool is_muted_ = false, ends_ = false;
   std::string message_;
   std::size_t moments_ = 0;
+  Cost cost_;
   std::thread thread_;  ///< last: it uses all others
 };
 

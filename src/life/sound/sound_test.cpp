@@ -294,6 +294,10 @@ TEST(Playback, ADeviceThatGoesAwayIsAMessageAndIsOpenedAgain) {
     playback.mute(i % 2 == 0);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
+  for (int i = 0; i < 2000 && playback.cost().voices == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(playback.cost().voices, 1u);
+  EXPECT_GT(playback.cost().core_fraction, 0.0);
   playback.update({}, {}, 1.0);
   EXPECT_GT(playback.moments(), 5u);
 }

@@ -139,6 +139,8 @@ constexpr auto french = std::to_array<std::pair<std::string_view, std::string_vi
     {"Mean", "Moyenne"},
     {"Longest", "La plus longue"},
     {"Passes on the GPU", "Passes du GPU"},
+    {"On the CPU", "Sur le processeur"},
+    {"Mixing", "Mixage"},
     {"None has been timed yet.", "Aucune n'est encore mesurée."},
     {"Software driver: of one frame in sixteen, by the clock.",
      "Pilote logiciel : une image sur seize, à l'horloge."},

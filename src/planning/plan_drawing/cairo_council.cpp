@@ -9,6 +9,7 @@ namespace {
 
 constexpr glm::dvec2 page_mm(420.0, 297.0);
 constexpr double edge_mm = 12.0, head_mm = 24.0, foot_mm = 9.0;
+constexpr double link_mm = 30.0;  // side of a QR code with its quiet zone
 constexpr double top_mm = edge_mm + head_mm, bottom_mm = page_mm.y - edge_mm - foot_mm;
 constexpr double gap_mm = 6.0;
 constexpr Colour dim{0.36, 0.36, 0.36}, hair{0.75, 0.75, 0.75};
@@ -168,6 +169,20 @@ void draw_legend_and_table(const Page& page, const CouncilSheet& sheet, glm::dve
               {min.x, y + 4.5}, 2.0, width, false, dim);
 }
 
+/// The code with its quiet zone, and the address below it, cut where it is too long.
+void draw_link(const Page& page, const QrCode& code, glm::dvec2 corner, double width_mm) {
+  const double module_mm = link_mm / double(code.side + 2 * QrCode::quiet_modules);
+  const glm::dvec2 first = corner + module_mm * double(QrCode::quiet_modules);
+  page.set(black);
+  for (int y = 0; y < code.side; ++y)
+    for (int x = 0; x < code.side; ++x)
+      if (code.dark(x, y))
+        cairo_rectangle(page.context(), first.x + module_mm * x, first.y + module_mm * y, module_mm,
+                        module_mm);
+  cairo_fill(page.context());
+  page.text(code.link, corner + glm::dvec2(0.0, link_mm + 2.0), 2.0, width_mm, false, dim);
+}
+
 void draw_plan_page(const Page& page, const CouncilSheet& sheet) {
   const glm::dvec2 min(edge_mm, top_mm), max = min + council_plan_mm;
   const Viewport view{min, max, sheet.centre, sheet.scale};
@@ -178,7 +193,10 @@ void draw_plan_page(const Page& page, const CouncilSheet& sheet) {
     draw_differences(page, view, sheet.differences, sheet.words);
   }
   page.box(min, max, 0.35, black);
-  draw_legend_and_table(page, sheet, {max.x + gap_mm, min.y}, {page_mm.x - edge_mm, bottom_mm});
+  const double left = max.x + gap_mm, right = page_mm.x - edge_mm;
+  const double table_bottom = sheet.link ? bottom_mm - link_mm - 5.0 : bottom_mm;
+  draw_legend_and_table(page, sheet, {left, min.y}, {right, table_bottom});
+  if (sheet.link) draw_link(page, *sheet.link, {left, table_bottom + 2.0}, right - left);
 }
 
 void draw_scale_of(const Page& page, const Image8& colours, glm::dvec2 at, double width,

@@ -9,6 +9,7 @@
 #include "base/image.h"
 #include "planning/design/difference.h"
 #include "planning/design/words.h"
+#include "planning/plan_drawing/qr_code.h"
 #include "planning/plan_drawing/scene_plan.h"
 #include "planning/plan_drawing/sun_difference.h"
 
@@ -62,8 +63,9 @@ struct CouncilSheet {
   double scale = 200.0;    ///< of the plan, 1 : scale
   glm::dvec2 centre{0.0};  ///< of the plan, in the scene's frame
   std::optional<SunDifference> sun;
-  std::string sun_day;  ///< "21 March 2026"
-  design::Words words;  ///< of all that the pages say
+  std::string sun_day;         ///< "21 March 2026"
+  std::optional<QrCode> link;  ///< the address at which the designs can be seen, beside the plan
+  design::Words words;         ///< of all that the pages say
 };
 
 /// The middle and half the extent of what differs, in plan. Errors: nothing does.

@@ -16,6 +16,7 @@
 #include "formats/gltf/gltf_writer.h"
 #include "planning/design/design_nodes.h"
 #include "planning/plan_drawing/council_sheet.h"
+#include "planning/plan_drawing/qr_code.h"
 #include "planning/share/instead.h"
 #include "planning/share/notes.h"
 #include "planning/share/site_files.h"
@@ -74,6 +75,7 @@ class Writer {
       : stage_(stage), options_(options), files_(std::move(files)) {}
 
   Result<WrittenSite> write(const fs::path& page) {
+    if (Status status = write_link(); !status) return status.errors();
     if (Status status = choose_views(); !status) return status.errors();
     if (Status status = visit_states(); !status) return status.errors();
     if (Status status = add_notes(); !status) return status.errors();
@@ -297,6 +299,13 @@ class Writer {
                         {"longitude", day.when.longitude_deg},
                         {"hour", day.when.time_of_day_h}};
     return files_.write_part("hours", hours.bytes());
+  }
+
+  /// A QR code of the address, for print.
+  Status write_link() {
+    if (options_.link.empty()) return Ok{};
+    const Result<plan_drawing::QrCode> code = plan_drawing::qr_code(options_.link);
+    return code ? files_.write("link.svg", plan_drawing::qr_svg(*code)) : Status(code.errors());
   }
 
   stage::Stage& stage_;

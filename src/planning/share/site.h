@@ -17,6 +17,7 @@ struct SiteOptions {
   std::string title;               ///< empty: the scene's name
   std::filesystem::path notes;     ///< of the authors: see `read_notes`; empty: none
   std::vector<std::string> views;  ///< names of cameras; empty: all of the scene
+  std::string link;                ///< the address under which it will stand; empty: not known
   int max_texture_px = 2048;       ///< longest side
 };
 
