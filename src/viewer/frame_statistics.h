@@ -1,5 +1,5 @@
-// How long frames take, for a person who watches: the last frames one by one, passes smoothed; what a frame
-// may take, and what of it pictures, people, reflections and sound take.
+// How long frames take, for a person who watches: the last frames one by one; passes, and the program's own
+// work beside them, smoothed.
 #pragma once
 
 #include <array>

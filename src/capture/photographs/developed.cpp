@@ -20,7 +20,6 @@ struct Development {
   std::string from, to;  ///< relative to their folders
 };
 
-const std::set<std::string> plain_extensions{".jpg", ".jpeg", ".png"};
 const std::set<std::string> developed_extensions{".heic", ".heif", ".avif", ".arw",  ".cr2", ".cr3",
                                                  ".dng",  ".nef",  ".orf",  ".pef",  ".raf", ".rw2",
                                                  ".srw",  ".webp", ".tif",  ".tiff", ".bmp"};
@@ -29,10 +28,9 @@ std::string without_extension(const std::string& name) {
   return fs::path(name).replace_extension().generic_string();
 }
 
-/// The pictures of a folder that do not lie in `kept`, which may stand in it.
-std::vector<std::string> pictures_outside(const fs::path& kept, const fs::path& pictures,
-                                          const std::set<std::string>& extensions) {
-  std::vector<std::string> names = picture_names(pictures, extensions);
+/// Those of the names of a folder's pictures that do not lie in `kept`, which may stand in it.
+std::vector<std::string> outside(const fs::path& kept, const fs::path& pictures,
+                                 std::vector<std::string> names) {
   const fs::path canonical_kept = fs::weakly_canonical(kept);
   std::erase_if(names, [&](const std::string& name) {
     return is_below(fs::weakly_canonical(pictures / name), canonical_kept);
@@ -62,12 +60,12 @@ bool is_newer(const fs::path& made, const fs::path& original) {
 }  // namespace
 
 Result<DevelopedFolder> developed(const fs::path& pictures, const fs::path& kept) {
-  const std::vector<std::string> plain = pictures_outside(kept, pictures, plain_extensions);
+  const std::vector<std::string> plain = outside(kept, pictures, picture_names(pictures));
   std::set<std::string> taken;
   for (const std::string& name : plain) taken.insert(without_extension(name));
   DevelopedFolder result{pictures, {}};
-  const std::vector<Development> developments =
-      developments_of(pictures_outside(kept, pictures, developed_extensions), taken, result.problems);
+  const std::vector<Development> developments = developments_of(
+      outside(kept, pictures, picture_names(pictures, developed_extensions)), taken, result.problems);
   if (developments.empty()) return result;
   result.folder = kept;
   Progress progress("developing photographs", plain.size() + developments.size());
