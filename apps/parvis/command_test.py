@@ -1950,7 +1950,9 @@ class Window(InAFolder):
             f"{shlex.join(map(str, command))} & parvis=$!\n"
             "timeout 60 xdotool search --sync --onlyvisible --name Parvis > window || exit 3\n"
             "xdotool mousemove --window $(cat window) 300 300 key F2 sleep 0.5 key Tab sleep 0.5\n"
-            "xdotool mousemove --window $(cat window) 674 617 sleep 0.5 click 1 sleep 0.5\n"  # the button "Picture"
+            # The button "Picture": on a busy machine the panel is drawn later than it is asked for.
+            "for i in $(seq 30); do xdotool mousemove --window $(cat window) 674 617 sleep 0.5 click 1 sleep 0.5\n"
+            "  [ -e pictures/scene-0001.png ] && break; done\n"
             "xdotool mousemove --window $(cat window) 300 300 sleep 6 key Escape\n"  # notices are gone by then
             "wait $parvis\n",
         )
@@ -1963,23 +1965,24 @@ class Window(InAFolder):
         self.assertEqual(struct.unpack(">II", taken.read_bytes()[16:24]), (610, 640), "the picture beside the panel")
         self.expect_golden(last, "window")
 
-    def drive(self, command, steps, **options):
+    def drive(self, command, steps, keyboard="us", **options):
         """Runs `parvis view` on a display of 1280 x 720 and drives it by xdotool."""
         if not shutil.which("xvfb-run") or not shutil.which("xdotool"):
             self.skipTest("skipped: no xvfb-run or no xdotool here")
         script = self.write(
             "drive.sh",
+            (f"setxkbmap {keyboard}\n" if keyboard != "us" else "") +
             f"{shlex.join(map(str, [PARVIS, 'view', *command, '--size', '1280x720']))} & parvis=$!\n"
             "timeout 60 xdotool search --sync --onlyvisible --name Parvis > window || exit 3\n"
             "at() { xdotool mousemove --window $(cat window) $1 $2 sleep 1; }\n"
             "click() { at $1 $2; xdotool click 1 sleep 2; }\n"
             "key() { xdotool key $1 sleep 1; }\n"
             # All kinds of the catalogue are drawn and kept.
-            f"pictures() {{ for i in $(seq 200); do [ $(ls {self.pictures.name}/parvis 2> /dev/null | wc -l) -ge 15 ] && break; sleep 0.5; done; sleep 2; }}\n"
+            f"pictures() {{ for i in $(seq 200); do [ $(ls {self.pictures.name}/parvis 2> /dev/null | wc -l) -ge 19 ] && break; sleep 0.5; done; sleep 2; }}\n"
             "sleep 6\n" + steps,  # the window is there before its first frame
         )
         done = subprocess.run(
-            [*self.display(), "-s", "-screen 0 1280x720x24", "sh", str(script)],
+            [*self.display(), "-s", "-screen 0 1280x720x24 -noreset", "sh", str(script)],
             capture_output=True, text=True, timeout=240, cwd=self.folder, env={**os.environ, "XDG_CACHE_HOME": self.pictures.name}, **options,
         )
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -2012,6 +2015,24 @@ class Window(InAFolder):
         listed = run("plan", scene, "--journal", "--list").stdout
         self.assertIn("bench_wood_1", listed)
         self.assertIn("steps that had not been saved are there again", listed)
+
+    def test_commands_are_written_by_name_in_french_on_a_french_keyboard(self):
+        if not shutil.which("setxkbmap"):
+            self.skipTest("skipped: no setxkbmap here")
+        scene = self.write_square()
+        self.drive(
+            [scene, "--plan", "--language", "fr", "--text-size", "150", "--screenshot", self.folder / "last.png"],
+            "write() { sleep 1; xdotool type --delay 60 \"$1\"; sleep 1; xdotool key $2; sleep 1; }\n"
+            "xdotool key ctrl+k\nwrite 'ins' Tab\nwrite 'bench_w' Tab\nwrite ' 1.25,2.5 name first' Return\n"
+            "write 'insert bollard 4,4 name second' Return\n"
+            # Ctrl and the key labelled Z, which lies where an American W does: the bollard goes.
+            "key Escape\nxdotool key --clearmodifiers ctrl+z sleep 1\n"
+            "key ctrl+s\nkey Escape\nkey Escape\nwait $parvis\n",
+            keyboard="fr",
+        )
+        listed = run("plan", scene, "--list").stdout
+        self.assertIn("first", listed)
+        self.assertNotIn("second", listed)
 
     def expect_golden(self, picture, name):
         """The picture looks like docs/goldens/NAME.png; fonts and edges are the machine's own."""

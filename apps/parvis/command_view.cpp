@@ -16,6 +16,7 @@ struct ViewArguments : SceneArguments {
   std::string rate;      ///< of --fps; empty: not given
   std::string language;  ///< of --language; empty: the locale's
   std::string sound;     ///< of --sound; empty: not given
+  int text_percent = 100;
   DisplayArguments display;
   std::filesystem::path devices;  ///< of --devices; empty: not given
   viewer::WallsOptions on_walls;  ///< what --display alone has
@@ -93,6 +94,7 @@ Status view(ViewArguments& arguments) {
   // Pictures that can be repeated make no noise.
   window.sound = !arguments.sound.empty() ? arguments.sound : window.max_frames > 0 ? "off" : "default";
   window.camera = arguments.camera;
+  window.text_size = float(arguments.text_percent) / 100.0f;
   window.title = arguments.scene.stem().string();
   window.pictures.name = window.title;
   if (window.pictures.folder.empty())
@@ -125,6 +127,11 @@ void add_view(CLI::App& app, Chosen& chosen) {
                     "Begin with the planner's tool in hand: place, move and measure objects of a design");
   command->add_option("--language", arguments->language, "Of the planner's tool (default: the locale's)")
       ->check(CLI::IsMember({"en", "fr"}));
+  command
+      ->add_option("--text-size", arguments->text_percent,
+                   "Of all that is written and pressed in the window, percent, as far as it fits; Ctrl and + "
+                   "or - change it (default: 100)")
+      ->check(CLI::Range(100, 300));
   command->add_option("--sound", arguments->sound,
                       "Device that sounds, by OpenAL's name; default; null (none); NAME.wav (what headphones "
                       "would play); osc://HOST:PORT (parvis soundserver); or off (default: default; off with "
@@ -136,7 +143,7 @@ void add_view(CLI::App& app, Chosen& chosen) {
                       "Write what the window shows last, panel and all, when it closes");
   arguments->display.add(*command);
   CLI::Option* const display = command->get_option("--display");
-  for (const char* of_a_window : {"--size", "--fps", "--panel", "--screenshot", "--output"})
+  for (const char* of_a_window : {"--size", "--fps", "--panel", "--text-size", "--screenshot", "--output"})
     display->excludes(of_a_window);
   const auto of_walls = [&](const char* name, std::filesystem::path& file, const char* help) {
     command->add_option(name, file, help)->needs(display)->group("Displays");

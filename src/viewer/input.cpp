@@ -46,6 +46,29 @@ bool is_kept_from_participants(int key) {
   return std::ranges::find(keys, key) != keys.end();
 }
 
+/// The key whose label on the keyboard in use is this key's name. GLFW names keys by their places on an
+/// American keyboard: on a French one the key of undo would be the one labelled W. Without Ctrl the keys of
+/// movement stay where the hand lies, and no other key becomes one of them.
+int by_label(int key, int scancode, int modifiers) {
+  const auto moves = [](int of) { return std::ranges::find(movement, of) != movement.end(); };
+  const bool has_control = (modifiers & GLFW_MOD_CONTROL) != 0;
+  if (!has_control && moves(key)) return key;
+  const char* const name = glfwGetKeyName(key, scancode);
+  if (!name || name[1] != 0 || name[0] < 'a' || name[0] > 'z') return key;
+  const int labelled = GLFW_KEY_A + (name[0] - 'a');
+  return !has_control && moves(labelled) ? key : labelled;
+}
+
+/// 1 for the keys of a larger text, -1 for those of a smaller one; 0: it is none of them.
+int text_size_step(int key, int scancode) {
+  if (key == GLFW_KEY_EQUAL || key == GLFW_KEY_KP_ADD) return 1;
+  if (key == GLFW_KEY_MINUS || key == GLFW_KEY_KP_SUBTRACT) return -1;
+  if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return 0;  // of views, whatever stands on them
+  const char* const name = glfwGetKeyName(key, scancode);
+  const std::string_view label = name ? name : "";
+  return label == "+" ? 1 : label == "-" ? -1 : 0;
+}
+
 Input& input_of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
 
 }  // namespace
@@ -54,8 +77,8 @@ Input::Input(GLFWwindow* window, Visit& visit, Panel& panel, Planning& planning,
     : window_(window), visit_(visit), panel_(panel), planning_(planning), hearing_(hearing) {
   static_assert(std::tuple_size_v<decltype(controller_buttons_)> == GLFW_GAMEPAD_BUTTON_LAST + 1);
   glfwSetWindowUserPointer(window, this);
-  glfwSetKeyCallback(window, [](GLFWwindow* in, int key, int, int action, int modifiers) {
-    input_of(in).on_key(key, action, modifiers);
+  glfwSetKeyCallback(window, [](GLFWwindow* in, int key, int scancode, int action, int modifiers) {
+    input_of(in).on_key(key, scancode, action, modifiers);
   });
   glfwSetCharCallback(window,
                       [](GLFWwindow* in, unsigned character) { input_of(in).on_character(character); });
@@ -87,11 +110,15 @@ bool Input::tell_scene(const std::string& key, int action) {
   return true;
 }
 
-void Input::on_key(int key, int action, int modifiers) {
+void Input::on_key(int place, int scancode, int action, int modifiers) {
+  if (action == GLFW_PRESS && place >= 0) tapped_.push_back(place);
   if (ImGui::GetIO().WantTextInput && action == GLFW_PRESS) return;
+  const int key = by_label(place, scancode, modifiers);
   if (const auto moves = std::ranges::find(movement, key); moves != movement.end() && action == GLFW_PRESS)
     was_pressed_[std::size_t(moves - movement.begin())] = true;
   if (tell_scene(key_name(key), action) || action == GLFW_RELEASE) return;
+  if (const int step = text_size_step(key, scancode); step != 0 && (modifiers & GLFW_MOD_CONTROL) != 0)
+    return panel_.step_text_size(step);
   if (action == GLFW_REPEAT && !repeats(key)) return;
   if (planning_.study && is_kept_from_participants(key)) return;
   if (press_planning(key, modifiers) || action != GLFW_PRESS) return;
@@ -153,9 +180,12 @@ bool Input::press_with_control(int key, bool has_shift) {
     case GLFW_KEY_D:
       return planning_.run("duplicate selected by 1,0");
     case GLFW_KEY_G:
-      return planning_.run(fmt::format("group selected as group_{}", planning_.session()->done().size() + 1));
+      return planning_.group_selected();
     case GLFW_KEY_L:
       return planning_.run("lock selected");
+    case GLFW_KEY_K:
+      planning_.shows_commands = true;
+      return true;
     default:
       break;
   }
@@ -247,7 +277,7 @@ bool Input::press_planning(int key, int modifiers) {
     case GLFW_KEY_DOWN:
       return has_selection && nudge(0, -1);
     case GLFW_KEY_ESCAPE:
-      if (tool.cancel()) return true;
+      if (std::exchange(planning_.shows_commands, false) || tool.cancel()) return true;
       return std::exchange(planning_.shows_catalogue, false);
     default:
       break;
@@ -394,8 +424,18 @@ void Input::poll_controller() {
       tell_scene(controller_button_name(int(i)), is_down ? GLFW_PRESS : GLFW_RELEASE);
 }
 
-Controls Input::poll(double seconds) {
+/// Dear ImGui of this version knows of keys alone that are down as its frame begins: one that was pressed and
+/// released while a frame was drawn is down for it until the next poll.
+void Input::poll_events() {
+  bool* const keys_down = ImGui::GetIO().KeysDown;
+  for (const int key : told_) keys_down[key] = glfwGetKey(window_, key) == GLFW_PRESS;
   glfwPollEvents();
+  told_ = std::exchange(tapped_, {});  // those too that came while the window waited at rest
+  for (const int key : told_) keys_down[key] = true;
+}
+
+Controls Input::poll(double seconds) {
+  poll_events();
   poll_controller();
   const bool has_moved = std::exchange(has_moved_, false);
   planning_.step(float(seconds), has_moved);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "viewer/panel.h"
 #include "viewer/planning.h"
@@ -24,7 +25,7 @@ class Input {
   Controls poll(double seconds);
 
   /// Handles a GLFW key event: an event of the scene, else a command of the viewer.
-  void on_key(int key, int action, int modifiers);
+  void on_key(int place, int scancode, int action, int modifiers);
   /// Handles a character: of a number that is typed while a thing moves.
   void on_character(unsigned character);
   /// Handles a GLFW mouse button event: an event of the scene, else dragging or selecting with the left
@@ -40,6 +41,7 @@ class Input {
   void press(int key);
   void choose_what_is_below_the_cursor();
   void poll_controller();
+  void poll_events();
   bool press_planning(int key, int modifiers);
   bool press_with_control(int key, bool has_shift);
   std::optional<planner::Pointer> pointer() const;
@@ -50,6 +52,8 @@ class Input {
   static constexpr std::size_t movement_keys = 6;
   /// Whether each of W, S, A, D, E and Q was pressed since the last poll, if only for a moment.
   std::array<bool, movement_keys> was_pressed_{};
+  /// Keys that were pressed since the last poll, and those that Dear ImGui was told of in it.
+  std::vector<int> tapped_, told_;
   Visit& visit_;
   Panel& panel_;
   Planning& planning_;

@@ -33,6 +33,8 @@ inline constexpr std::array key_help{
     KeyHelp{"Q  E", "planning: turn what hangs on the pointer"},
     KeyHelp{"arrows", "planning: move by 1 cm; Shift 10 cm, Ctrl 1 m"},
     KeyHelp{"Ctrl", "planning: +Z undo, +Y redo, +S save, +D copy, +A all"},
+    KeyHelp{"Ctrl+K", "planning: any command by its name"},
+    KeyHelp{"Ctrl + -", "larger and smaller text"},
     KeyHelp{"F1", "shows these keys"},
     KeyHelp{"F2", "opens and closes the panel"},
     KeyHelp{"Esc", "closes this, then the window"}};

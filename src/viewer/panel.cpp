@@ -297,7 +297,7 @@ void Panel::draw_keys() const {
 void Panel::draw_notices(const Visit& visit) const {
   const float margin = 14.0f * imgui_.scale();
   const float max_width = ImGui::GetIO().DisplaySize.x - width() - 2.0f * margin;
-  float foot = ImGui::GetIO().DisplaySize.y - margin;
+  float foot = ImGui::GetIO().DisplaySize.y - notices_foot - margin;
   for (std::size_t i = visit.notices().size(); i-- > 0;) {
     const Notice& notice = visit.notices()[i];
     ImGui::SetNextWindowPos({margin, foot}, ImGuiCond_Always, {0.0f, 1.0f});

@@ -2,6 +2,7 @@
 // closes with a key, and the picture stands beside it, not below it.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -20,8 +21,12 @@ class Panel {
 
   bool is_open = false;
   bool shows_keys = false;
+  float text_size = 1.0f;     ///< of all that is written and pressed, over the usual; 1 to 3
+  float notices_foot = 0.0f;  ///< how high above the foot of the picture notices stand, in ImGui's units
   bool shows_design_alone = false;  ///< without what a participant of a study must not see or change
 
+  /// Makes the text larger by a quarter of the usual for 1, smaller for -1.
+  void step_text_size(int step) { text_size = std::clamp(text_size + 0.25f * float(step), 1.0f, 3.0f); }
   /// Width of the panel in ImGui's units; 0 where the panel is closed.
   float width() const;
   /// Draws the panel if it is open, the keys if they are asked for, and notices to the visitor; called

@@ -186,6 +186,10 @@ bool Planning::tell(const Status& status) {
 
 bool Planning::run(const std::string& command) { return desk_ && tell(desk_->session.run(command)); }
 
+bool Planning::group_selected() {
+  return desk_ && run(fmt::format("group selected as group_{}", desk_->session.done().size() + 1));
+}
+
 void Planning::undo() {
   if (!desk_) return;
   desk_->tool.choose(planner::Mode::select);

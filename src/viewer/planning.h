@@ -29,6 +29,7 @@ class Planning {
   /// Takes it up or puts it away. Taking it up opens the scene's first design, with its journal.
   void turn_on(bool on);
   bool shows_catalogue = false;  ///< along the lower edge
+  bool shows_commands = false;   ///< the line in which commands are written
   /// The session that a participant works in, which logs what is done: no files are written then. Null: there
   /// is none.
   study::Session* study = nullptr;
@@ -71,6 +72,8 @@ class Planning {
 
   /// Runs a command of the session; an error becomes a notice.
   bool run(const std::string& command);
+  /// Makes a group of what is selected, under the next free name.
+  bool group_selected();
   /// Makes a kind of a model file and takes it in hand.
   void take_file(const std::filesystem::path& file);
   /// Makes an error a notice; false: there was one.

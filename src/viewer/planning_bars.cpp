@@ -48,7 +48,8 @@ std::string joined(const design::Names& names) { return fmt::format("{}", fmt::j
 PlanningBars::PlanningBars(const ImguiContext& imgui, Planning& planning, std::filesystem::path pictures)
     : imgui_(imgui),
       planning_(planning),
-      pictures_(planning.visit().stage().registries(), planning.visit().scene(), std::move(pictures)) {}
+      pictures_(planning.visit().stage().registries(), planning.visit().scene(), std::move(pictures)),
+      commands_(imgui, planning) {}
 
 /// A button of a bar; lit where it says what is so.
 bool PlanningBars::button(const std::string& name, const char* key, bool is_lit, float width) {
@@ -139,6 +140,12 @@ void PlanningBars::draw_tools(float height) {
   ImGui::End();
 }
 
+/// The next widget stands behind the last one where it fits a bar over a picture of this width, else below.
+void PlanningBars::stay_on_line(float next_width, float gap, float width) const {
+  const float end = ImGui::GetItemRectMax().x + gap + next_width + 8.0f * imgui_.scale();
+  if (end - ImGui::GetWindowPos().x < width) ImGui::SameLine(0.0f, gap);
+}
+
 void PlanningBars::draw_views(float width) {
   ImGui::SetNextWindowPos({0.5f * width, 0.0f}, ImGuiCond_Always, {0.5f, 0.0f});
   ImGui::SetNextWindowBgAlpha(0.86f);
@@ -147,23 +154,26 @@ void PlanningBars::draw_views(float width) {
   ImGui::PopStyleVar();
   const float side = 74.0f * imgui_.scale();
   const bool is_plan = planning_.visit().camera().parallel.has_value();
+  const float gap = ImGui::GetStyle().ItemSpacing.x, padding = 2.0f * ImGui::GetStyle().FramePadding.x;
   if (button("Plan", "4", is_plan, side)) planning_.look(PlanningView::plan);
-  ImGui::SameLine();
+  stay_on_line(side, gap, width);
   if (button("Street", "5", !is_plan && !planning_.waits_for_balcony(), side))
     planning_.look(PlanningView::street);
-  ImGui::SameLine();
+  stay_on_line(side, gap, width);
   if (button("Balcony", "6", planning_.waits_for_balcony(), side)) planning_.look(PlanningView::balcony);
   const std::vector<int> kept = planning_.kept_views();
+  const float digit = padding + ImGui::CalcTextSize("8").x;
   for (const int number : kept) {
-    ImGui::SameLine();
+    stay_on_line(digit, gap, width);
     if (button(fmt::format("{}", number).c_str(), fmt::format("Ctrl+{}", number).c_str(), false, 0.0f))
       planning_.go_to_view(number);
   }
-  ImGui::SameLine();
+  stay_on_line(digit, gap, width);
   const int next = kept.empty() ? 1 : kept.back() + 1;
   if (next <= 9 && button("+", "Keep this view", false, 0.0f)) planning_.keep_view(next);
   for (const std::string& design : planning_.designs()) {
-    ImGui::SameLine(0.0f, (design == planning_.designs().front() ? 18.0f : 6.0f) * imgui_.scale());
+    stay_on_line(padding + ImGui::CalcTextSize(design.c_str()).x,
+                 (design == planning_.designs().front() ? 18.0f : 6.0f) * imgui_.scale(), width);
     const bool is_open = planning_.session() && planning_.session()->name() == design;
     if (is_open) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(accent.x, accent.y, accent.z, 0.45f));
     const bool is_pressed = ImGui::Button((design + "##design").c_str());
@@ -174,14 +184,8 @@ void PlanningBars::draw_views(float width) {
   ImGui::End();
 }
 
-void PlanningBars::draw_hint(float width) {
-  const float height = bar_height * imgui_.scale();
-  ImGui::SetNextWindowPos({0.0f, ImGui::GetIO().DisplaySize.y - height});
-  ImGui::SetNextWindowSize({width, height});
-  ImGui::SetNextWindowBgAlpha(0.86f);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10.0f * imgui_.scale(), 6.0f * imgui_.scale()});
-  ImGui::Begin("hint", nullptr, bar_flags);
-  ImGui::PopStyleVar();
+/// Returns its height: a long sentence takes several lines.
+float PlanningBars::draw_hint(float width) {
   const planner::Tool& tool = *planning_.tool();
   const bool is_refused = !tool.refusal().empty();
   std::string said = planning_.waits_for_balcony()
@@ -189,8 +193,19 @@ void PlanningBars::draw_hint(float width) {
                      : is_refused ? tool.refusal()
                                   : planning_.word(tool.hint());
   if (!tool.typed().empty()) said = tool.typed();
+  const float margin = 10.0f * imgui_.scale(), wrapped_at = std::max(width - 2.0f * margin, 1.0f);
+  const float height = std::max(bar_height * imgui_.scale(),
+                                ImGui::CalcTextSize(said.c_str(), nullptr, false, wrapped_at).y + margin);
+  ImGui::SetNextWindowPos({0.0f, ImGui::GetIO().DisplaySize.y - height});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::SetNextWindowBgAlpha(0.86f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {margin, 6.0f * imgui_.scale()});
+  ImGui::Begin("hint", nullptr, bar_flags);
+  ImGui::PopStyleVar();
   ImGui::PushStyleColor(ImGuiCol_Text, is_refused ? error_text : ImGui::GetStyleColorVec4(ImGuiCol_Text));
+  ImGui::PushTextWrapPos(margin + wrapped_at);
   ImGui::TextUnformatted(said.c_str());
+  ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
   std::string right;
   if (tool.place()) {
@@ -209,9 +224,11 @@ void PlanningBars::draw_hint(float width) {
     ImGui::TextColored(dim_text, "%s", right.c_str());
   }
   ImGui::End();
+  return height;
 }
 
-void PlanningBars::draw_catalogue(float width) {
+/// `foot`: the height of what stands below it. Returns its own.
+float PlanningBars::draw_catalogue(float width, float foot) {
   // A picture takes as long as a frame or more: none is made while a hand is at work.
   constexpr int rest_frames = 8;
   const ImGuiIO& io = ImGui::GetIO();
@@ -219,13 +236,13 @@ void PlanningBars::draw_catalogue(float width) {
                           ImGui::IsMouseReleased(ImGuiMouseButton_Left);
   resting_frames_ = is_at_work ? 0 : resting_frames_ + 1;
   if (resting_frames_ > rest_frames) pictures_.make_one();
-  const float side = picture_side * imgui_.scale(), foot = bar_height * imgui_.scale();
+  const float side = picture_side * imgui_.scale();
   const float height = side + 114.0f * imgui_.scale();
   ImGui::SetNextWindowPos({tools_width * imgui_.scale(), ImGui::GetIO().DisplaySize.y - foot - height});
   ImGui::SetNextWindowSize({width - tools_width * imgui_.scale(), height});
   ImGui::SetNextWindowBgAlpha(0.93f);
   ImGui::Begin("catalogue", nullptr, bar_flags);
-  for (const char* tab : {"all", "seats", "shade", "green", "street", "own"}) {
+  for (const char* tab : {"all", "seats", "shade", "green", "street", "people", "own"}) {
     if (button(tab, "", tab_ == tab, 0.0f)) tab_ = tab;
     ImGui::SameLine();
   }
@@ -266,6 +283,7 @@ void PlanningBars::draw_catalogue(float width) {
   }
   ImGui::EndChild();
   ImGui::End();
+  return height;
 }
 
 void PlanningBars::draw_lengths(PanelRows& rows, const design::PlacedObject& first) {
@@ -312,6 +330,23 @@ void PlanningBars::draw_colours(PanelRows& rows, const design::PlacedObject& fir
     if (ImGui::ColorButton(each, colour, ImGuiColorEditFlags_NoTooltip, {side, side})) paint(each);
     rows.note_place(std::string("colour ") + each);
   }
+}
+
+/// How several objects stand to each other.
+void PlanningBars::draw_arrangement(PanelRows& rows, const std::vector<design::PlacedObject>& chosen) {
+  const std::string names = joined(planning_.session()->selected());
+  rows.heading(planning_.word("Together").c_str());
+  const auto aligned =
+      rows.buttons({planning_.word("Align x"), planning_.word("Align y"), planning_.word("Same heading")}, 3);
+  constexpr std::array axes{"x", "y", "heading"};
+  if (aligned) planning_.run(fmt::format("align {} {}", names, axes[*aligned]));
+  const auto group = shared(chosen, [](const auto& each) { return each.group; });
+  const bool is_group = group && !group->empty();
+  const auto arranged =
+      rows.buttons({planning_.word("Space evenly"), planning_.word(is_group ? "Ungroup" : "Group")}, 2);
+  if (arranged == 0u) planning_.run("space " + names);
+  if (arranged == 1u && is_group) planning_.run("ungroup " + names);
+  if (arranged == 1u && !is_group) planning_.group_selected();
 }
 
 void PlanningBars::draw_inspector(PanelRows& rows) {
@@ -366,11 +401,10 @@ void PlanningBars::draw_inspector(PanelRows& rows) {
     bool is_locked = locked.value_or(false);
     if (rows.flag(planning_.word("Locked"), is_locked))
       planning_.run((is_locked ? "lock " : "unlock ") + names);
-    const auto pressed = rows.buttons(
-        {planning_.word("Duplicate"), planning_.word("Space evenly"), planning_.word("Delete")}, 3);
+    const auto pressed = rows.buttons({planning_.word("Duplicate"), planning_.word("Delete")}, 2);
     if (pressed == 0u) planning_.run(fmt::format("duplicate {} by 1,0", names));
-    if (pressed == 1u) planning_.run("space " + names);
-    if (pressed == 2u) planning_.run("delete " + names);
+    if (pressed == 1u) planning_.run("delete " + names);
+    if (chosen.size() > 1) draw_arrangement(rows, chosen);
     if (rows.buttons({planning_.word("All like this")}, 1) == 0u) planning_.run("select like " + first.name);
   }
   rows.heading(planning_.word("Steps").c_str());
@@ -382,13 +416,15 @@ void PlanningBars::draw_inspector(PanelRows& rows) {
 
 void PlanningBars::draw(float picture_width) {
   places_.clear();
+  height_below_ = 0.0f;
   if (!planning_.is_on()) return;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   overlay_.draw(planning_, {picture_width, window.y}, imgui_.scale());
   draw_tools(window.y);
   draw_views(picture_width);
-  draw_hint(picture_width);
-  if (planning_.shows_catalogue) draw_catalogue(picture_width);
+  height_below_ = draw_hint(picture_width);
+  if (planning_.shows_catalogue) height_below_ += draw_catalogue(picture_width, height_below_);
+  height_below_ += commands_.draw(picture_width, window.y - height_below_, places_);
 }
 
 }  // namespace parvis::viewer

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "viewer/command_line.h"
 #include "viewer/imgui_context.h"
 #include "viewer/kind_pictures.h"
 #include "viewer/overlay.h"
@@ -23,6 +24,8 @@ class PlanningBars {
   void draw(float picture_width);
   /// Rows of what is selected, within a window of the panel.
   void draw_inspector(PanelRows& rows);
+  /// Height of what stood along the lower edge in the last frame, in ImGui's units.
+  float height_below() const { return height_below_; }
   /// Rectangles of the widgets of the last frame.
   const Places& places() const { return places_; }
 
@@ -30,9 +33,11 @@ class PlanningBars {
   bool button(const std::string& name, const char* key, bool is_lit, float width);
   void draw_icon(int icon, ImVec2 low, float side, ImU32 colour) const;
   void draw_tools(float height);
+  void stay_on_line(float next_width, float gap, float width) const;
   void draw_views(float width);
-  void draw_hint(float width);
-  void draw_catalogue(float width);
+  float draw_hint(float width);
+  float draw_catalogue(float width, float foot);
+  void draw_arrangement(PanelRows& rows, const std::vector<design::PlacedObject>& chosen);
   void draw_colours(PanelRows& rows, const design::PlacedObject& first, const std::string& names);
   void draw_lengths(PanelRows& rows, const design::PlacedObject& first);
 
@@ -40,7 +45,9 @@ class PlanningBars {
   Planning& planning_;
   Overlay overlay_;
   KindPictures pictures_;
+  CommandLine commands_;
   std::string search_, tab_ = "all";
+  float height_below_ = 0.0f;
   int resting_frames_ = 0;  ///< since a hand was at work
   Places places_;
 };

@@ -54,20 +54,24 @@ Status open_window(Glfw& glfw, const WindowOptions& options) {
   return gl::check_current();
 }
 
-/// How large a person wants things on the window's screen, in the window's units, and pixels a unit.
+/// How large things are drawn on the window's screen, in the window's units, and pixels a unit.
 struct Scale {
   float interface, pixels_per_point;
   bool operator==(const Scale&) const = default;
 };
 
-Scale scale_of(GLFWwindow* window) {
+/// The screen's own scale times the size of text that the visitor wants, as far as the tools fit the window.
+Scale scale_of(GLFWwindow* window, float text_factor) {
+  constexpr float tools_height = 340.0f, bars_width = 400.0f;  // at scale 1
   float asked = 1.0f, ignored = 1.0f;
   glfwGetWindowContentScale(window, &asked, &ignored);
-  int points = 0, pixels = 0, height = 0;
+  int points = 0, height = 0, pixels = 0, ignored_height = 0;
   glfwGetWindowSize(window, &points, &height);
-  glfwGetFramebufferSize(window, &pixels, &height);
+  glfwGetFramebufferSize(window, &pixels, &ignored_height);
   const float pixels_per_point = points > 0 && pixels > 0 ? float(pixels) / float(points) : 1.0f;
-  return {std::max(asked / pixels_per_point, 0.5f), pixels_per_point};
+  const float usual = std::max(asked / pixels_per_point, 0.5f);
+  const float fitting = std::min(float(height) / tools_height, float(points) / bars_width);
+  return {std::clamp(text_factor * usual, usual, std::max(fitting, usual)), pixels_per_point};
 }
 
 /// GLFW's part of Dear ImGui; after the window's own callbacks, which it calls.
@@ -79,7 +83,7 @@ struct ImguiInput {
 
 /// Says in the window what is done until the first picture is there: a black window looks as if it hung.
 void show_opening(GLFWwindow* window, const WindowOptions& options) {
-  const Scale scale = scale_of(window);
+  const Scale scale = scale_of(window, options.text_size);
   ImguiContext imgui(scale.interface, scale.pixels_per_point);
   const ImguiInput input(window);
   for (int buffer = 0; buffer < 2; ++buffer) {  // both of them: the window may be mapped after the first
@@ -124,7 +128,7 @@ class Frames {
   Frames(GLFWwindow* window, stage::Stage& stage, const Camera& start, const WindowOptions& options)
       : window_(window),
         options_(options),
-        scale_(scale_of(window)),
+        scale_(scale_of(window, options.text_size)),
         visit_(stage, start, options.pictures),
         imgui_(scale_.interface, scale_.pixels_per_point),
         hearing_(options.sound),
@@ -133,7 +137,7 @@ class Frames {
         bars_(imgui_, planning_, options.kept_pictures),
         input_(window, visit_, panel_, planning_, hearing_),
         imgui_input_(window) {
-    panel_.is_open = options.has_panel;
+    panel_.is_open = options.has_panel, panel_.text_size = options.text_size;
     if (options.plans) planning_.turn_on(true);
     if (options.study) {
       panel_.shows_design_alone = true;
@@ -225,7 +229,7 @@ class Frames {
   void draw(double passed_s) {
     glfwGetFramebufferSize(window_, &width_, &height_);
     if (width_ == 0 || height_ == 0) return;  // an icon
-    if (const Scale scale = scale_of(window_); scale != scale_) {
+    if (const Scale scale = scale_of(window_, panel_.text_size); scale != scale_) {
       scale_ = scale;
       imgui_.rescale(scale.interface, scale.pixels_per_point);
     }
@@ -234,6 +238,7 @@ class Frames {
     if (planning_.is_on() != bool(panel_.design_page))
       panel_.design_page = planning_.is_on() ? [this](PanelRows& rows) { bars_.draw_inspector(rows); }
                                              : std::function<void(PanelRows&)>();
+    panel_.notices_foot = bars_.height_below();
     panel_.draw(visit_, statistics_, &hearing_);
     bars_.draw(ImGui::GetIO().DisplaySize.x - panel_.width());
     if (study_) study_->draw(ImGui::GetIO().DisplaySize.x - panel_.width());

@@ -18,6 +18,7 @@ struct WindowOptions {
   std::string title;       ///< of the scene
   std::string camera;      ///< where the visit begins; empty: the scene's first
   bool has_panel = false;  ///< at first; F2 opens and closes it
+  float text_size = 1.0f;  ///< over the usual, 1 to 3
   bool plans = false;      ///< begins with the planner's tool in hand
   design::Language language = design::Language::english;  ///< of the planner's tool
   std::filesystem::path kept_pictures;                    ///< of the catalogue; empty: they are not kept
