@@ -1,15 +1,10 @@
 // person: somebody who stands, sits or walks on the spot.
-#include <algorithm>
-#include <glm/gtc/matrix_transform.hpp>
-
 #include "base/registries.h"
-#include "life/people/person_model.h"
+#include "life/people/person_object.h"
 #include "room_list.h"
-#include "scene/data/object_animation.h"
 #include "scene/script/attribute.h"
 #include "scene/script/node_registry.h"
 #include "scene/script/placement.h"
-#include "scene/script/scene_builder.h"
 
 namespace parvis::people {
 namespace {
@@ -42,25 +37,16 @@ scene::NodeSchema person_schema() {
 }
 
 void build_person(const Node& node, SceneBuilder& builder) {
-  const auto seed = std::uint64_t(node.integer("seed"));
-  const Someone drawn = someone(seed);
-  const std::string sex = node.text("sex");
-  const Sex wanted = sex == "any" ? drawn.person.sex : sex == "female" ? Sex::female : Sex::male;
-  const float age = node.gives("age") ? float(node.number("age")) : drawn.person.age;
-  const Someone who = someone(seed, wanted, age);
-  const auto speed = float(node.number("speed"));
-  const std::string key = fmt::format("person {} {} {} {}", seed, int(wanted), age, speed);
-  scene::Object object;
+  PersonRequest request{.seed = std::uint64_t(node.integer("seed"))};
+  if (const std::string sex = node.text("sex"); sex != "any")
+    request.sex = sex == "female" ? Sex::female : Sex::male;
+  if (node.gives("age")) request.age = float(node.number("age"));
+  request.speed_m_s = float(node.number("speed"));
+  request.does = node.text("does");
+  scene::Object object = person_object(request, builder);
   object.name = node.gives("name") ? node.text("name") : "person";
-  object.model =
-      builder.shared_model(key, [&] { return make_person(who, colours_of(who, seed), speed).model; });
   object.world_from_model = builder.world_from_parent() * scene::placement(node);
   object.is_visible = builder.is_visible() && node.flag("visible");
-  const std::string does = node.text("does");
-  const std::vector<scene::Animation>& animations = object.model->animations;
-  const auto found = std::ranges::find(animations, does, &scene::Animation::name);
-  const int animation = int(found - animations.begin());
-  scene::play(object, {animation, 1.0f, double(seed % 97) * 0.37});
   builder.add(std::move(object));
 }
 

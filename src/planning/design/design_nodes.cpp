@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "formats/readers/readers.h"
+#include "life/people/person_object.h"
 #include "life/vegetation/scene_plant.h"
 #include "planning/design/shape_models.h"
 #include "scene/script/attribute.h"
@@ -114,11 +115,11 @@ Status check_size(const Node& node, const Kind& kind, const glm::dvec3& size) {
   return Ok{};
 }
 
-/// The seed of one of five shapes of a plant, by its name.
-std::uint64_t seed_of(const std::string& name) {
+/// A seed of 1 to `count`, by the name of an object.
+std::uint64_t seed_of(const std::string& name, std::uint64_t count) {
   ContentHash hash;
   hash.add_text(name);
-  return 1 + hash.value() % 5;
+  return 1 + hash.value() % count;
 }
 
 void add_plant(const Node& node, const Kind& kind, const glm::dvec3& size, const glm::mat4& world_from_object,
@@ -131,7 +132,8 @@ void add_plant(const Node& node, const Kind& kind, const glm::dvec3& size, const
   const bool has_bed = !kind.shape.empty();
   recipe.height_m = has_bed ? recipe.kind->height_m : float(size.z);
   recipe.length_m = has_bed ? float(size.x) - 0.24f : float(size.x);
-  recipe.seed = seed_of(node.text("name"));
+  constexpr int plant_shapes = 5;
+  recipe.seed = seed_of(node.text("name"), plant_shapes);
   auto shape = vegetation::shared_plant(builder.scene.data<vegetation::PlantCache>(), recipe);
   if (!shape) return builder.fail(shape.errors(), node.where);
   vegetation::ScenePlant plant;
@@ -159,6 +161,20 @@ void add_file(const Node& node, const Kind& kind, const glm::dvec3& size, scene:
   builder.add(std::move(object));
 }
 
+/// Somebody who stands there and looks ahead.
+void add_person(const Node& node, const Kind& kind, scene::Object object, SceneBuilder& builder) {
+  constexpr int people = 1000;  // of whom each place has one
+  constexpr float grown_up = 18.0f;
+  const std::uint64_t seed = seed_of(node.text("name"), people);
+  const float age = kind.age.value_or(std::max(people::someone(seed).person.age, grown_up));
+  scene::Object person =
+      people::person_object({.seed = seed, .age = age, .does = kind.person, .is_still = true}, builder);
+  person.name = std::move(object.name), person.is_visible = object.is_visible;
+  person.world_from_model =
+      glm::rotate(object.world_from_model, glm::half_pi<float>(), glm::vec3(0.0f, 0.0f, 1.0f));
+  builder.add(std::move(person));
+}
+
 void build_placed(const Node& node, SceneBuilder& builder, const formats::Readers& readers) {
   const Kind* kind = find_kind(builder.scene, node.text("kind"));
   if (!kind)
@@ -174,6 +190,7 @@ void build_placed(const Node& node, SceneBuilder& builder, const formats::Reader
   object.is_visible = builder.is_visible() && node.flag("visible");
   if (!kind->plant.empty()) add_plant(node, *kind, size, object.world_from_model, builder);
   if (!kind->file.empty()) return add_file(node, *kind, size, std::move(object), readers, builder);
+  if (!kind->person.empty()) return add_person(node, *kind, std::move(object), builder);
   if (kind->shape.empty()) return;
   const ShapeRequest request{glm::vec3(size), node.gives("colour") ? node.vec3("colour") : kind->colour,
                              node.gives("material") ? node.text("material") : ""};

@@ -25,23 +25,27 @@ constexpr std::array<std::pair<const char*, Changeable>, 5> changeables{{{"width
                                                                          {"material", Changeable::material}}};
 
 scene::NodeSchema kind_schema() {
-  return {.type = "kind",
-          .help = "A kind of object that designs may place, beside those that the program has.",
-          .attributes = {text("name", "by which placed(kind=...) and commands call it").required(),
-                         text("label", "what people call it"), text("label_fr", "the same in French"),
-                         choice("tab", "of the catalogue", {"seats", "shade", "green", "street", "own"})
-                             .by_default("own"),
-                         file("file", "a model, with its foot at the origin and its front towards -y"),
-                         choice("shape", "that is generated, in place of a file", shape_names()),
-                         text("plant", "a kind of plant that grows on it, or in place of a file"),
-                         vec3("size", "width along the front, depth and height").in("m").required(),
-                         vec3("min", "the least of these").in("m").by_default("0.01 0.01 0.01"),
-                         vec3("max", "the most of these").in("m").by_default("100 100 100"),
-                         text("changes", "what may be changed: width, depth, height, colour, material"),
-                         colour("colour", "of what may have another one").by_default("#808080"),
-                         flag("round", "its plan is an ellipse").by_default("0")},
-          .stands_in = {scene::top_level, "group", "design"},
-          .example = "kind(name=\"planter_oak\", label=\"Oak planter\", shape=planter, size=\"1 1 0.6\")"};
+  return {
+      .type = "kind",
+      .help = "A kind of object that designs may place, beside those that the program has.",
+      .attributes = {text("name", "by which placed(kind=...) and commands call it").required(),
+                     text("label", "what people call it"), text("label_fr", "the same in French"),
+                     choice("tab", "of the catalogue", {"seats", "shade", "green", "street", "people", "own"})
+                         .by_default("own"),
+                     file("file", "a model, with its foot at the origin and its front towards -y"),
+                     choice("shape", "that is generated, in place of a file", shape_names()),
+                     text("plant", "a kind of plant that grows on it, or in place of a file"),
+                     choice("person", "who stands there, each another one, in place of a file",
+                            {"stand", "wait", "talk", "phone"}),
+                     number("age", "of the person, in years; without it: grown up").between(4, 95),
+                     vec3("size", "width along the front, depth and height").in("m").required(),
+                     vec3("min", "the least of these").in("m").by_default("0.01 0.01 0.01"),
+                     vec3("max", "the most of these").in("m").by_default("100 100 100"),
+                     text("changes", "what may be changed: width, depth, height, colour, material"),
+                     colour("colour", "of what may have another one").by_default("#808080"),
+                     flag("round", "its plan is an ellipse").by_default("0")},
+      .stands_in = {scene::top_level, "group", "design"},
+      .example = "kind(name=\"planter_oak\", label=\"Oak planter\", shape=planter, size=\"1 1 0.6\")"};
 }
 
 Kind kind_of(const scene::Node& node) {
@@ -51,6 +55,8 @@ Kind kind_of(const scene::Node& node) {
   kind.label_fr = node.gives("label_fr") ? node.text("label_fr") : kind.label;
   kind.tab = node.text("tab"), kind.plant = node.text("plant"), kind.file = node.file("file").string();
   if (node.gives("shape")) kind.shape = node.text("shape");
+  if (node.gives("person")) kind.person = node.text("person");
+  if (node.gives("age")) kind.age = float(node.number("age"));
   kind.size_m = exact_decimals(node.vec3("size")), kind.min_m = exact_decimals(node.vec3("min")),
   kind.max_m = exact_decimals(node.vec3("max"));
   const std::string changes = node.text("changes");
@@ -104,9 +110,9 @@ std::string no_such_kind(const scene::Scene& scene, const std::string& name) {
 void add_kind_node(scene::NodeRegistry& registry) {
   registry.add(kind_schema(), [](const scene::Node& node, scene::SceneBuilder& builder) {
     const Kind kind = kind_of(node);
-    if (kind.file.empty() && kind.shape.empty() && kind.plant.empty())
-      return builder.fail(
-          error_at(node.where, "kind \"{}\" has nothing to show; give file=, shape= or plant=", kind.name));
+    if (kind.file.empty() && kind.shape.empty() && kind.plant.empty() && kind.person.empty())
+      return builder.fail(error_at(
+          node.where, "kind \"{}\" has nothing to show; give file=, shape=, plant= or person=", kind.name));
     std::vector<Kind>& own = builder.scene.data<Kinds>().own;
     if (const auto known = std::ranges::find(own, kind.name, &Kind::name); known != own.end())
       *known = kind;
