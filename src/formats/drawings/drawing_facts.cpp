@@ -8,9 +8,6 @@
 namespace parvis::formats {
 namespace {
 
-/// Copies of a block in an array (MINSERT): more are not listed one by one.
-constexpr int max_copies = 10'000;
-
 /// The groups of one entity, table entry or header variable.
 using Groups = std::span<const Group>;
 
@@ -108,7 +105,7 @@ void add_blocks(Groups insert, std::span<const Groups> attributes, DrawingFacts&
   block.is_mirrored = x_axis.x * y_axis.y - x_axis.y * y_axis.x < 0.0;
   for (const Groups& attribute : attributes) block.attributes[text_of(attribute, 2)] = text_of(attribute, 1);
   const int columns = std::max(whole_of(insert, 70, 1), 1), rows = std::max(whole_of(insert, 71, 1), 1);
-  const int copies = int(std::min<long>(long(columns) * rows, max_copies));
+  const int copies = int(std::min<long>(long(columns) * rows, max_block_copies));
   for (int i = 0; i < copies; ++i) {
     const double column_m = i % columns * real_of(insert, 44), row_m = i / columns * real_of(insert, 45);
     block.position = axes * (point_of(insert, 10) + along * column_m + across * row_m);

@@ -12,6 +12,9 @@
 
 namespace parvis::formats {
 
+/// Copies of a block in an array (MINSERT): more are not listed one by one.
+inline constexpr int max_block_copies = 10'000;
+
 /// An entity of model space.
 struct DrawingEntity {
   std::string type, layer;

@@ -40,25 +40,34 @@ Error ask_for_unit(const Drawing& drawing, const std::string& file, std::string_
                   why, in_units(drawing, 1.0), in_units(drawing, 0.01), in_units(drawing, 0.001));
 }
 
-/// Middle and size of what each placed block draws, along its own axes.
+/// Middle and size of what each placed block draws, along its own axes. The copies of an array share a
+/// handle, and which line is whose is not known: the extent of all less the way from the first copy to the
+/// last is that of one.
 void measure_blocks(const DrawingFacts& facts, const DrawingGeometry& geometry, Drawing& drawing) {
-  std::unordered_map<std::string, int> copies_of;
-  for (const PlacedBlockEntity& placed : facts.blocks) ++copies_of[placed.handle];
+  std::unordered_map<std::string, std::vector<std::size_t>> copies_of;
+  for (std::size_t b = 0; b < facts.blocks.size(); ++b) copies_of[facts.blocks[b].handle].push_back(b);
   for (std::size_t b = 0; b < drawing.blocks.size(); ++b) {
     const std::string& handle = facts.blocks[b].handle;
     const auto lines = geometry.lines_of.find(handle);
-    // The copies of an array share a handle: which line is whose is not known.
-    if (handle.empty() || lines == geometry.lines_of.end() || copies_of[handle] > 1) continue;
+    const std::vector<std::size_t>& copies = copies_of[handle];
+    if (handle.empty() || lines == geometry.lines_of.end() || copies.size() >= max_block_copies) continue;
     PlacedBlock& block = drawing.blocks[b];
     const double heading = block.heading_deg * std::numbers::pi / 180.0;
     const glm::dvec2 y(std::sin(heading), std::cos(heading)), x(y.y, -y.x);
-    glm::dvec2 min(std::numeric_limits<double>::max()), max(-min);
+    const auto along = [&](const glm::dvec3& point) {
+      const glm::dvec2 from(point - block.position);
+      return glm::dvec2(glm::dot(from, x), glm::dot(from, y));
+    };
+    glm::dvec2 min(std::numeric_limits<double>::max()), max(-min), first(0.0), last(0.0);
     for (const std::size_t line : lines->second)
-      for (const glm::dvec3& point : drawing.lines[line].points) {
-        const glm::dvec2 from(point - block.position), along(glm::dot(from, x), glm::dot(from, y));
-        min = glm::min(min, along), max = glm::max(max, along);
-      }
+      for (const glm::dvec3& point : drawing.lines[line].points)
+        min = glm::min(min, along(point)), max = glm::max(max, along(point));
     if (min.x > max.x) continue;
+    for (const std::size_t copy : copies) {
+      const glm::dvec2 at = along(drawing.blocks[copy].position);
+      first = glm::min(first, at), last = glm::max(last, at);
+    }
+    min -= first, max -= last;
     const glm::dvec2 middle = 0.5 * (min + max);
     block.centre = glm::dvec2(block.position) + middle.x * x + middle.y * y;
     block.size_m = max - min;

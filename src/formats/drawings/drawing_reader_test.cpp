@@ -149,6 +149,12 @@ TEST(DrawingReader, PlacedBlocksAreSymbolsWithTheirPlaceTurnAndMirror) {
   // The array's rows run along its turned y axis.
   EXPECT_NEAR(drawing.blocks[4].position.y, 10.0, 1e-9);
   EXPECT_NEAR(drawing.blocks[5].position.x, 93.0, 1e-9);
+  for (std::size_t copy = 2; copy < drawing.blocks.size(); ++copy) {
+    const PlacedBlock& block = drawing.blocks[copy];
+    ASSERT_TRUE(block.centre && block.size_m) << "copy " << copy;
+    EXPECT_NEAR(glm::distance(*block.size_m, {2.0, 1.0}), 0.0, 1e-9) << "as large as one, not as the array";
+    EXPECT_NEAR(glm::distance(*block.centre, glm::dvec2(block.position) + glm::dvec2(-0.5, 1.0)), 0.0, 1e-9);
+  }
   EXPECT_EQ(drawing.entity_counts.at("TREES").at("INSERT"), 3);
   EXPECT_TRUE(std::ranges::any_of(drawing.lines, [&](const DrawingLine& line) {
     return drawing.layers[std::size_t(line.layer)].name == "OWN";
