@@ -12,6 +12,7 @@ void add_facade_model(CLI::App& stage, Chosen& chosen);
 void add_facade_layers(CLI::App& stage, Chosen& chosen);
 void add_facade_fill(CLI::App& stage, Chosen& chosen);
 void add_facade_pack(CLI::App& stage, Chosen& chosen);
+void add_facade_light(CLI::App& stage, Chosen& chosen);
 void add_facade_report(CLI::App& stage, Chosen& chosen);
 void add_facade_figures(CLI::App& stage, Chosen& chosen);
 void add_facade_export(CLI::App& stage, Chosen& chosen);
@@ -32,6 +33,7 @@ inline constexpr FacadeStage facade_stages[] = {
     {"layers", "Cut every photograph into layers, as PSD files for an image editor", add_facade_layers},
     {"fill", "Propose what photographs do not see of their layers; accept or refuse it", add_facade_fill},
     {"pack", "Compress the layers, with edits and fillings, into a file and a scene", add_facade_pack},
+    {"light", "Find sun and sky of the photographs, for what is inserted", add_facade_light},
     {"report", "Write a page: layers, coverage, proposals, memory", add_facade_report},
     {"figures", "Draw what the stages do with a photograph, as the thesis shows it", add_facade_figures},
     {"export", "Write a packed place as glTF with one texture, for other programs", add_facade_export},
