@@ -6,6 +6,8 @@ Usage: command_test.py PARVIS [unittest's arguments]. Exit status 0 is done, 1 f
 import base64
 import csv
 import glob
+import importlib.machinery
+import importlib.util
 import json
 import math
 import os
@@ -1530,6 +1532,118 @@ class Facades(InAFolder):
         done = run("check", self.folder / "place.xp")
         self.assertEqual(done.returncode, 1)
         self.assertIn("place.facade", done.stderr)
+
+
+class DemoOfPhotographs(InAFolder):
+    """The stages of script/demo --photos that are its own, on a small place that is made up."""
+
+    def setUp(self):
+        super().setUp()
+        file = pathlib.Path(__file__).resolve().parent.parent.parent / "script" / "demo_photos"
+        loader = importlib.machinery.SourceFileLoader("demo_photos", str(file))
+        self.demo = importlib.util.module_from_spec(importlib.util.spec_from_loader("demo_photos", loader))
+        sys.dont_write_bytecode = True
+        loader.exec_module(self.demo)
+
+    def photographs(self):
+        """Three photographs of a court whose wall stands 20 m north, 1.6 m above its ground."""
+        looks_north = [[1, 0, 0], [0, 0, -1], [0, 1, 0]]
+        return [self.demo.Photograph(f"{i:04}.jpg", looks_north, [-4.0 * i, 1.6, 0], 1, (96, 64), (60.0, 60.0, 48.0, 32.0)) for i in range(3)]
+
+    def points(self):
+        """Of the ground, of a wall, and of a car that stands before it."""
+        ground = [self.demo.Point((0.5 * x, 5 + 0.5 * y, 0.0), 3) for x in range(20) for y in range(20)]
+        wall = [self.demo.Point((0.5 * x - 4, 20.0, 0.25 * z), 3) for x in range(40) for z in range(20)]
+        car = [self.demo.Point((4 + 0.2 * x, 9 + 0.3 * y, 0.4 + 0.2 * z), 3) for x in range(8) for y in range(5) for z in range(5)]
+        return ground + wall + car
+
+    def model(self, names=("wall_1",)):
+        """A model of one wall, as parvis facade model writes models: under a node that turns z up."""
+        document, data = triangle((-8, 20, 0, 20, 20, 0, 20, 20, 9))
+        document["nodes"] = [{"name": "z_up", "children": [1], "matrix": [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1]}, {"mesh": 0, "name": names[0]}]
+        document["materials"] = [{"name": "unpainted"}]
+        file = self.folder / "model.glb"
+        self.demo.write_glb(file, document, bytearray(data))
+        return file
+
+    def test_the_pixel_of_a_point_is_where_the_camera_sees_it(self):
+        first, second, _ = self.photographs()
+        self.assertEqual(first.centre(), [0, 0, 1.6])
+        self.assertEqual(second.centre()[0], 4.0)
+        self.assertEqual(first.pixel((0, 10, 1.6)), (48.0, 32.0))
+        self.assertEqual(first.pixel((1, 10, 2.6)), (54.0, 26.0))  # to the right, and up
+        self.assertIsNone(first.pixel((0, -1, 0)))
+
+    def test_ground_is_where_hardly_a_point_lies_below(self):
+        self.assertEqual(self.demo.ground_level(self.points(), self.photographs()), 0.0)
+        noisy = self.points() + [self.demo.Point((0, 9, -7.0), 3)]
+        self.assertEqual(self.demo.ground_level(noisy, self.photographs()), 0.0)
+        with self.assertRaises(SystemExit):
+            self.demo.ground_level([p for p in self.points() if p.position[2] > 1.7], self.photographs())
+
+    def test_sloping_ground_is_a_plane(self):
+        ground = self.demo.plane_of([(x, y, 2 + 0.1 * x - 0.2 * y) for x in (0, 5, 9) for y in (1, 4)])
+        self.assertAlmostEqual(ground(20, 10), 2.0)
+        self.assertEqual(self.demo.plane_of([(3, 4, 7.0)])(50, 60), 7.0)
+
+    def test_ground_is_added_to_a_model_that_parvis_reads(self):
+        file = self.model()
+        self.demo.add_ground(file, -0.5, (-10, 0), (10, 22))
+        (self.folder / "scene.xp").write_text('model(file="model.glb")\ncamera(name="down", position="0 8 30", pitch_deg=-90)')
+        done = run("render", self.folder / "scene.xp", "--size", "64x36", "--probe", "20,18", "-o", self.folder / "down.png")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"-0\.50 m")
+
+    def test_a_car_before_a_wall_is_masked_and_the_wall_is_not(self):
+        file = self.model()
+        walls = self.demo.wall_points(*self.demo.read_glb(file))
+        boxes = self.demo.standing_boxes(self.points(), walls, self.demo.plane_of([(0, 0, 0.0)]), self.photographs())
+        self.assertEqual(len(boxes), 1)
+        box = boxes[0]
+        self.assertTrue(box.low[0] < 4 and box.high[0] > 5.4 and box.low[1] < 9 and box.high[1] < 11 and box.high[2] < 2 and box.low[2] < 0)
+        rows = self.demo.mask_rows(self.photographs()[1], boxes)
+        x, y = map(round, self.photographs()[1].pixel((4.7, 9.6, 0.8)))
+        self.assertEqual(rows[y][x], 0)
+        self.assertEqual(rows[2][x], 255)
+        self.assertEqual(rows[y][90], 255)
+        # Fewer points are a part of a wall that the model lacks.
+        few = [p for p in self.points() if not 4 <= p.position[0] <= 5.5 or not 9 <= p.position[1] < 10.3 or p.position[2] < 0.5]
+        self.assertEqual(self.demo.standing_boxes(few, walls, self.demo.plane_of([(0, 0, 0.0)]), self.photographs()), [])
+
+    def test_masks_are_named_beside_those_that_somebody_painted(self):
+        (self.folder / "photographs.json").write_text(json.dumps({"pictures": "p", "photographs": [{"name": "0000.jpg", "mask": "mine.png"}, {"name": "0001.jpg"}]}))
+        box = self.demo.Box((3.7, 8.7, 0), (5.7, 10.5, 1.5))
+        self.assertEqual(self.demo.write_masks(self.folder, self.photographs(), [box]), 1)  # 0002.jpg is not in the set
+        entries = json.loads((self.folder / "photographs.json").read_text())["photographs"]
+        self.assertEqual([entry["mask"] for entry in entries], ["mine.png", "masks/0001.png"])
+        self.assertTrue((self.folder / "masks/0001.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_what_is_inserted_stands_before_a_camera_that_the_place_has(self):
+        place = self.folder / "place.xp"
+        place.write_text('camera(name="between", position="1 0 1.6", heading_deg=0, pitch_deg=0, roll_deg=0, fov_deg=60)\n'
+                         + "".join(f'camera(name="{i:04}", position="{4 * i} 0.0000 1.6000", heading_deg={turn}, pitch_deg=-1.5, roll_deg=0.1, fov_deg=60.5)\n' for i, turn in ((3, -20.0), (5, 75.0), (7, -45.0))))
+        cameras = self.demo.read_cameras(place)
+        self.assertEqual([camera.name for camera in cameras], ["0003", "0005", "0007"])
+        obstacles = [(0.5 * x - 30, 25.0) for x in range(160)] + [(26.0 + 0.2 * i, 3.0) for i in range(10)]
+        first, depth, second = self.demo.chosen_views(cameras, obstacles)
+        self.assertNotEqual(first.name, "0005")  # which looks at a wall 6 m away
+        self.assertGreater(depth, 15)
+        stops = self.demo.film_stops(cameras, first, second)
+        self.assertEqual(len(stops), len({camera.name for camera in stops}))
+        (self.folder / "light.xp").write_text("sun(direction=\"0 0 1\")\n")
+        text = self.demo.design_text(first, depth, self.demo.plane_of([(0, 0, 0.0)]), second, stops)
+        (self.folder / "square.xp").write_text(text.replace('include(file="place.xp")', place.read_text()))
+        for car in ("saloon_silver", "hatchback_red"):
+            self.model().rename(self.folder / f"{car}.glb")
+        done = run("check", self.folder / "square.xp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # A step aside, for at a photograph's own viewpoint masks do not count.
+        self.assertAlmostEqual(math.dist(cameras[0].position, cameras[0].beside("x").position), self.demo.ASIDE_M)
+        self.assertIn('camera(name="view"', text)
+        # An object 10 m before a camera that looks north-west by 20 degrees.
+        x, y, _ = cameras[0].place(0, 10, 0)
+        self.assertAlmostEqual(x, 12 - 10 * math.sin(math.radians(20)))
+        self.assertAlmostEqual(y, 10 * math.cos(math.radians(20)))
 
 
 class Captured(InAFolder):
