@@ -323,7 +323,9 @@ void SunShadowMaps::update(const Camera& camera, const scene::SunLight& sun, std
     if (const Square square = square_of(shading::shadow_near_map, box);
         square.size.x > 2 && square.size.y > 2)
       drawn_over_.push_back(square);
-  if (maps_.tile_count > 0)  // they may fall into any tile
+  // They may fall into any tile; and one copy of all takes less time than many small ones.
+  constexpr std::size_t max_squares = 96;
+  if (maps_.tile_count > 0 || drawn_over_.size() > max_squares)
     drawn_over_.assign(1, {glm::ivec2(0), glm::ivec2(map_size)});
   for (render::View moving_view : near_views_) {
     moving_view.subjects = render::Subjects::moving;

@@ -15,6 +15,7 @@
 #include "graphics/shading/glsl.h"
 #include "scene/data/leaf_openness.h"
 #include "scene/data/mip_levels.h"
+#include "scene/data/shadow_proxies.h"
 #include "scene/data/surroundings.h"
 #include "scene/data/vertex_irradiance.h"
 
@@ -324,6 +325,7 @@ int GpuScene::add_materials(const scene::Model& model, const std::vector<scene::
 
 void GpuScene::make_items(const scene::Scene& scene, std::size_t first_object) {
   follow_shadow_wishes(scene);
+  const auto& proxies = scene.data<scene::ShadowProxies>();
   if (!first_item_.empty()) first_item_.pop_back();
   for (std::size_t o = first_object; o < scene.objects.size(); ++o) {
     const scene::Object& object = scene.objects[o];
@@ -344,7 +346,7 @@ void GpuScene::make_items(const scene::Scene& scene, std::size_t first_object) {
                         part,
                         int(o),
                         object.takes_reflection && material.is_mirror_like,
-                        shadows_.casts(o) && parts_[std::size_t(part)].casts_shadow});
+                        shadows_.casts(o) && !proxies.of(o) && parts_[std::size_t(part)].casts_shadow});
     }
   }
   first_item_.push_back(std::uint32_t(items_.size()));
@@ -361,9 +363,10 @@ void GpuScene::make_items(const scene::Scene& scene, std::size_t first_object) {
 void GpuScene::follow_shadow_wishes(const scene::Scene& scene) {
   const auto& shadows = scene.data<scene::SunShadows>();
   if (shadows_.casts_none == shadows.casts_none && shadows_.receives_none == shadows.receives_none) return;
+  const auto& proxies = scene.data<scene::ShadowProxies>();
   for (Item& item : items_) {
     const std::size_t o = std::size_t(item.object);
-    const bool casts = shadows.casts(o) && parts_[std::size_t(item.part)].casts_shadow;
+    const bool casts = shadows.casts(o) && !proxies.of(o) && parts_[std::size_t(item.part)].casts_shadow;
     if (casts != item.casts_shadow) fixed_change_.come.push_back(item.bounds);
     item.casts_shadow = casts;
     item.record.object = std::uint32_t(o) | (shadows.receives(o) ? 0 : no_shadow_received);
@@ -433,7 +436,7 @@ void GpuScene::update(const scene::Scene& scene) {
       if (object.is_visible) deform(object, o);
       place(scene, o);
       if (!object.is_visible) continue;
-      moving_bounds_.push_back(object_bounds_[o]);
+      if (!object_bounds_[o].empty()) moving_bounds_.push_back(object_bounds_[o]);
       add_body(object, o);
     } else if (was_visible != object.is_visible || world_from_model_[o] != object.world_from_model) {
       if (was_visible) fixed_change_.gone.push_back(object_bounds_[o]);

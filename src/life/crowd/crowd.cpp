@@ -12,11 +12,19 @@ constexpr float away_level_m = -1e4f;  // below all ground
 constexpr float corner_m = 0.5f;       // at which a corner is reached
 constexpr float own_lean_m = 0.7f;     // corners are passed wider by up to it
 constexpr float queue_lean_m = 0.4f;   // and by so much more at each look around in a queue
+constexpr float widest_lean_m = 8.0f;  // by a fraction of it at most: a queue spreads over a wide corner
 constexpr float queue_speed = 0.6f;    // of the free speed
 constexpr std::uint32_t turns = 4;     // a part of the people looks round in each step
 constexpr float lost_s = 4.0f;         // blocked for so long: another way is sought
 // Weidmann 1993: horizontal speeds on stairs.
 constexpr float stair_slope = 0.35f, up_m_s = 0.61f, down_m_s = 0.694f;
+
+// Groups (Moussaid, Perozo, Garnier, Helbing and Theraulaz 2010: people of a group walk abreast, 0.6 to 0.8 m
+// apart where there is room).
+constexpr float abreast_m = 0.75f, abreast_room_m = 0.15f, sideways = 0.45f;
+constexpr float level_m = 0.25f, behind_m = 1.2f,
+                lost_m = 12.0f;  // along the way; farther apart each walks alone
+constexpr float catches_up = 1.2f, drops_back = 0.75f, waits_for = 0.55f;  // of the own speed
 
 /// A number in 0..1 that follows from two others.
 float fraction_of(std::uint32_t number, std::uint32_t use) {
@@ -71,7 +79,7 @@ bool Crowd::send(std::size_t person, int destination, float waits_s) {
 
 int Crowd::quickest(std::size_t person, std::span<const int> destinations) const {
   constexpr float passing_per_m = 1.2f, narrowest_m = 0.5f;
-  constexpr float loyalty = 0.75f;  // another one is chosen where it saves a fourth
+  constexpr float loyalty = 0.65f;  // another one is chosen where it saves a third: others will, too
   const auto away_m = [&](std::size_t who, int destination) {
     const Destination& to = destinations_[std::size_t(destination)];
     return glm::distance(nearest_on_segment(to.a, to.b, walkers_.position[who]), walkers_.position[who]);
@@ -109,6 +117,9 @@ void Crowd::stand_back(std::size_t person, glm::vec2 before) {
 }
 
 void Crowd::remove(std::size_t person) {
+  const int last = int(people_.size()) - 1;
+  for (PersonOnTheWay& it : people_)
+    it.leader = it.leader == int(person) ? -1 : it.leader == last ? int(person) : it.leader;
   walkers_.remove(person);
   std::swap(people_[person], people_.back());
   people_.pop_back();
@@ -159,8 +170,10 @@ void Crowd::follow_way(std::size_t person) {
   // Who queues at a corner goes round it wider, where there is room.
   if (it.corner + 1 < it.way.size() &&
       glm::length(walkers_.velocity[person]) < queue_speed * walkers_.free_speed[person]) {
-    it.lean_m += queue_lean_m;
-    if (target_of(person) == glm::vec2(it.way[it.corner])) it.lean_m -= queue_lean_m;
+    const float before_m = it.lean_m;
+    it.lean_m =
+        std::max(before_m, std::min(before_m + queue_lean_m, widest_lean_m * fraction_of(it.number, 2)));
+    if (target_of(person) == glm::vec2(it.way[it.corner])) it.lean_m = before_m;
   }
   const bool is_cut_off = walls_.crosses(here, it.way[it.corner], walkers_.height_m[person]);
   if (is_cut_off || walkers_.blocked_s[person] > lost_s) {
@@ -181,6 +194,28 @@ void Crowd::look_at_ground(std::size_t person) {
   const std::optional<glm::vec3> next = mesh_.nearest(glm::vec3(before, below->z), 0.5f);
   const float run = next ? glm::distance(glm::vec2(*next), glm::vec2(*below)) : 0.0f;
   people_[person].slope = run > 0.2f ? (next->z - below->z) / run : 0.0f;
+}
+
+/// Those who walk beside somebody keep abreast of them.
+void Crowd::keep_together() {
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    const PersonOnTheWay& it = people_[i];
+    if (it.leader < 0) continue;
+    const auto leader = std::size_t(it.leader);
+    const glm::vec2 way = walkers_.aim[leader], to = walkers_.position[leader] - walkers_.position[i];
+    if (it.destination != people_[leader].destination || people_[leader].is_away || it.is_away) continue;
+    if (way == glm::vec2(0.0f) || walkers_.aim[i] == glm::vec2(0.0f) || glm::length(to) > lost_m) continue;
+    const float ahead = glm::dot(to, way);  // the leader is
+    if (ahead > level_m) walkers_.free_speed[i] *= catches_up;
+    if (ahead < -level_m) walkers_.free_speed[i] *= drops_back;
+    if (ahead > behind_m) walkers_.free_speed[leader] *= waits_for;
+    const float aside = to.x * way.y - to.y * way.x;  // positive: the leader is at the right
+    const glm::vec2 left(-way.y, way.x);
+    const float missing = abreast_m - std::abs(aside);
+    if (std::abs(missing) < abreast_room_m) continue;
+    const float away = (aside >= 0.0f ? 1.0f : -1.0f) * std::clamp(missing / abreast_m, -1.0f, 1.0f);
+    walkers_.aim[i] = unit(walkers_.aim[i] + sideways * away * left);
+  }
 }
 
 void Crowd::step(float step_s, std::span<const MovingBody> bodies) {
@@ -205,6 +240,7 @@ void Crowd::step(float step_s, std::span<const MovingBody> bodies) {
     if (it.slope < -stair_slope) speed = std::min(speed, down_m_s);
     walkers_.free_speed[i] = speed;
   }
+  keep_together();
   steering_.step(walkers_, walls_, bodies, step_s);
   ++steps_;
 }

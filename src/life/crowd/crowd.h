@@ -32,6 +32,7 @@ struct PersonOnTheWay {
   float lean_m = 0.0f;      ///< by which corners are passed wider
   Way way = {};
   std::size_t corner = 0;  ///< of the way, that is walked to
+  int leader = -1;         ///< the person whom they walk beside; -1: nobody
 };
 
 /// A crowd on one mesh. All that happens follows from its seed and the calls.
@@ -50,8 +51,11 @@ class Crowd {
   bool send(std::size_t person, int destination, float waits_s = 0.0f);
   /// The one of `destinations` at which a person would have passed first, by distance and by who is nearer
   /// and goes there, too: 1.2 people per second and metre of its line pass. The present one is left where
-  /// another one saves a fourth.
+  /// another one saves a third.
   int quickest(std::size_t person, std::span<const int> destinations) const;
+  /// Lets a person walk beside another one, of the same destination: both keep abreast, who is behind
+  /// catches up, who leads waits for who has fallen behind.
+  void accompany(std::size_t person, std::size_t leader) { people_[person].leader = int(leader); }
   /// Holds a person where they stand, or lets them walk.
   void hold(std::size_t person, bool is_held) { people_[person].is_held = is_held; }
   /// Takes a person off the ground, or leaves them there again: aboard a tram, say.
@@ -84,6 +88,7 @@ class Crowd {
   void follow_way(std::size_t person);
   void look_at_ground(std::size_t person);
   glm::vec2 target_of(std::size_t person) const;
+  void keep_together();
 
   NavMesh mesh_;
   Walls walls_;

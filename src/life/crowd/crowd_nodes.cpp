@@ -81,12 +81,13 @@ void build_crowd(const Node& node, SceneBuilder& builder, const formats::Readers
 
 }  // namespace
 
-/// Adds the node type and the process.
+/// Adds the node type, the process, and what draws and traces people who are far.
 void register_room(Registries& registries) {
   scene::NodeRegistry& registry = registries.get<scene::NodeRegistry>();
   const formats::Readers& readers = registries.get<formats::Readers>();
   registry.add(crowd_schema(),
                [&readers](const Node& node, SceneBuilder& builder) { build_crowd(node, builder, readers); });
+  registries.get<render::Drawables>().add(far_people_kind());
   registries.get<action::Processes>().add([] { return std::make_unique<CrowdProcess>(); });
   registry.allow("model", "crowd");
   registry.allow(scene::include_type, "crowd");

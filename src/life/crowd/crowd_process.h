@@ -32,7 +32,8 @@ class CrowdProcess final : public action::Process {
   void step(const scene::Scene& scene) override;
   void present(scene::Scene& scene, double ahead_s) override;
   void adapt(scene::Scene& scene, std::span<const glm::vec3> eyes) override {
-    if (generated_) generated_->adapt(scene, eyes);
+    if (generated_)
+      generated_->adapt(scene, eyes, [this](std::size_t p) { return bodies_[p].posture_at(shown_part_); });
   }
 
   /// The crowd after `begin`; null where nobody walks.
@@ -60,6 +61,7 @@ class CrowdProcess final : public action::Process {
   };
 
   void populate(const CrowdDemand& demand, const scene::RoadGraph& roads);
+  void keep_company();
   void walk();
   void come_and_go();
   void follow_presence();
@@ -81,6 +83,7 @@ class CrowdProcess final : public action::Process {
   std::optional<ShownPeople> generated_;     ///< where no model says how people look
   std::vector<people::WalkingBody> bodies_;  ///< of generated people, in their order
   std::vector<Random> randoms_;
+  std::vector<int> leaders_;  ///< of each person: whom they walk with, themselves if others follow; -1: alone
   /// A flow of the demand.
   struct RunningFlow {
     glm::vec3 from{0.0f};
@@ -97,6 +100,7 @@ class CrowdProcess final : public action::Process {
   std::shared_ptr<std::vector<scene::TransitStop>> stops_;  ///< null: no trams stop
   std::vector<MovingBody> vehicles_;
   long steps_ = 0;
+  float shown_part_ = 0.0f;  ///< of a step, at the moment that was presented last
   bool is_visible_ = true;
 };
 

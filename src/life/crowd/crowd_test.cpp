@@ -156,6 +156,35 @@ TEST(Crowd, PeopleWhoMeetHeadOnPass) {
   EXPECT_LT(seconds_to_empty(crowd, 60.0f), 30.0f) << "they do not stand before each other";
 }
 
+/// Mean distances of somebody from a slower leader, along and across their way, over a walk of 70 m among
+/// others who come the other way.
+std::pair<float, float> apart_from_leader(bool accompanies) {
+  TestGround ground;
+  ground.rectangle({-5, 0}, {80, 8});
+  Crowd crowd = crowd_on(ground);
+  const int east = crowd.add(Destination{{78, 0, 0}, {78, 8, 0}, 0.3f}),
+            west = crowd.add(Destination{{-3, 0, 0}, {-3, 8, 0}, 0.3f});
+  crowd.add({0, 4, 0}, east, 1.1f, radius_m), crowd.add({0, 4.9f, 0}, east, 1.35f, radius_m);
+  if (accompanies) crowd.accompany(1, 0);
+  for (int i = 0; i < 12; ++i)
+    crowd.add({20.0f + 4.5f * float(i), 1.0f + float((5 * i) % 7), 0}, west, 1.3f, radius_m);
+  glm::vec2 sum(0.0f);
+  int looks = 0;
+  for (int s = 0; s < 600 && !crowd.people()[0].has_arrived && !crowd.people()[1].has_arrived; ++s) {
+    crowd.step(step_s);
+    if (s < 50) continue;
+    sum += glm::abs(crowd.walkers().position[1] - crowd.walkers().position[0]), ++looks;
+  }
+  return {sum.x / float(looks), sum.y / float(looks)};
+}
+
+TEST(Crowd, WhoWalkTogetherKeepAbreast) {
+  const auto [along, across] = apart_from_leader(true);
+  EXPECT_LT(along, 0.8f);
+  EXPECT_NEAR(across, 0.75f, 0.35f);
+  EXPECT_GT(apart_from_leader(false).first, 3.0f) << "the control";
+}
+
 TEST(Crowd, TheSameCallsGiveTheSamePlaces) {
   const auto places = [] {
     TestGround ground;

@@ -39,6 +39,8 @@ class GeneratedPeople : public testing::Test {
     for (int s = 0; s < steps; ++s) process_.step(scene_);
     process_.present(scene_, 0.0);
   }
+  /// Levels of detail as for an eye in the middle of the place, or far from it.
+  void look_from(glm::vec3 eye) { process_.adapt(scene_, std::span(&eye, 1)); }
   const scene::Object* person(std::size_t number) const {
     const auto found = std::ranges::find_if(scene_.objects, [&](const scene::Object& object) {
       return object.is_visible && object.name == person_name(number);
@@ -72,6 +74,7 @@ TEST_F(GeneratedPeople, AreHiddenAndShownWhileTheyWalkOn) {
 
 TEST_F(GeneratedPeople, WalkWithoutAModelAndStandOnTheGround) {
   begin(12);
+  look_from({0.0f, 0.0f, 1.6f});
   advance(30);
   std::size_t moved = 0;
   std::vector<glm::vec3> before;
@@ -93,23 +96,32 @@ TEST_F(GeneratedPeople, AreFineWhereTheEyeIsNearAndEachIsShownOnce) {
   begin(30);
   advance(10);
   const glm::vec3 eye = glm::vec3(person(4)->world_from_model[3]) + glm::vec3(1.5f, 0.0f, 1.6f);
-  const std::size_t distant_triangles = person(4)->model->triangle_count();
-  process_.adapt(scene_, std::span(&eye, 1));
+  EXPECT_TRUE(person(4)->model->parts.empty()) << "nobody has looked yet";
+  look_from(eye);
   EXPECT_EQ(process_.generated()->level(4), people::Detail::near);
-  EXPECT_GT(person(4)->model->triangle_count(), 40 * distant_triangles);
+  EXPECT_GT(person(4)->model->triangle_count(), 12'000u);
+  const std::shared_ptr<FarPeople>& far = scene_.data<SharedFarPeople>().now;
   const auto shown = [&](std::size_t p) {
     return std::ranges::count_if(scene_.objects, [&](const scene::Object& object) {
       return object.is_visible && object.name == person_name(p);
     });
   };
-  for (std::size_t p = 0; p < 30; ++p) EXPECT_EQ(shown(p), 1) << p;
+  for (std::size_t p = 0; p < 30; ++p) {
+    EXPECT_EQ(shown(p), 1) << p;
+    EXPECT_EQ(far->people[p].is_shown, person(p)->model->parts.empty()) << "as a mesh or as a picture: " << p;
+  }
   EXPECT_NEAR(bounds_of(*person(4)).min.z, 0.0f, 0.04f) << "posed at once";
-  const glm::vec3 far_away(900.0f, 0.0f, 1.6f);
-  process_.adapt(scene_, std::span(&far_away, 1));
+  look_from({900.0f, 0.0f, 1.6f});
   for (std::size_t p = 0; p < 30; ++p) {
     EXPECT_EQ(process_.generated()->level(p), people::Detail::distant);
     EXPECT_EQ(shown(p), 1) << p;
+    EXPECT_TRUE(far->people[p].is_shown) << p;
+    EXPECT_NEAR(glm::distance(far->people[p].place, glm::vec3(person(p)->world_from_model[3])), 0.0f, 1e-4f);
   }
+  scene_.data<CrowdDemand>().is_visible = false;
+  advance(1);
+  for (std::size_t p = 0; p < 30; ++p)
+    EXPECT_FALSE(far->people[p].is_shown) << "hidden with the crowd: " << p;
 }
 
 TEST_F(GeneratedPeople, OfWhomThereAreManyShareTheirMeshes) {
@@ -121,8 +133,31 @@ TEST_F(GeneratedPeople, OfWhomThereAreManyShareTheirMeshes) {
     models.insert(object.model.get());
     near += object.model->triangle_count() > 12'000 ? 1 : 0;
   }
-  EXPECT_EQ(models.size(), std::size_t(people::detail_count * ShownPeople::max_shapes));
+  EXPECT_EQ(models.size(), std::size_t((people::detail_count - 1) * ShownPeople::max_shapes));
   EXPECT_LE(near, std::size_t(ShownPeople::max_looks));
+}
+
+TEST_F(GeneratedPeople, SomeOfThemWalkTogetherWhereverTheyGo) {
+  begin(40);
+  const auto& people = process_.crowd()->people();
+  const auto in_groups = [&] {
+    return std::ranges::count_if(people, [](const PersonOnTheWay& it) { return it.leader >= 0; });
+  };
+  EXPECT_GT(in_groups(), 6);
+  EXPECT_LT(in_groups(), 30);
+  float apart_m = 0.0f, apart_from_others_m = 0.0f;
+  int looks = 0;
+  for (int s = 0; s < 60; ++s) {
+    advance(60);
+    for (std::size_t p = 0; p < people.size(); ++p) {
+      if (people[p].leader < 0) continue;
+      const auto& at = process_.crowd()->walkers().position;
+      apart_m += glm::distance(at[p], at[std::size_t(people[p].leader)]);
+      apart_from_others_m += glm::distance(at[p], at[(p + 20) % people.size()]), ++looks;
+    }
+  }
+  EXPECT_LT(apart_m / float(looks), 2.5f) << "for a minute, with new destinations";
+  EXPECT_GT(apart_from_others_m / float(looks), 5.0f);
 }
 
 TEST_F(GeneratedPeople, DoNotStepOntoGroundThatATramCoversNext) {

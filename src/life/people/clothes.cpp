@@ -186,6 +186,12 @@ class Tailor {
   vec3 box_high() const { return {0.30f * h_, 0.46f * h_, h_}; }
 
   float cell(float near_m) const { return near_m * detail_ * std::max(0.72f, h_ / 1.75f); }
+  /// Cells for legs, which coarse ones would lose: narrow across, as high as others.
+  vec3 leg_cell(float near_m) const {
+    constexpr float across_m = 0.05f;
+    const float usual = cell(near_m), across = std::min(usual, across_m * std::max(0.72f, h_ / 1.75f));
+    return {across, across, usual};
+  }
 
   void add(const char* name, Mesh mesh, Surface surface, Moves moves, const Shade& shade) {
     if (mesh.indices.empty()) return;
@@ -323,7 +329,7 @@ class Tailor {
       vec3 low = box_low(), high = box_high();
       low.y = -0.24f * h_, high.y = 0.24f * h_, low.z = -0.06f, high.z = s_.hip_z + 0.12f * h_;
       const float hem = outfit_.bottom == Bottom::shorts ? s_.knee_z + 0.02f * h_ : 0.030f;
-      Mesh mesh = clipped(surface_net(field, low, high, cell(0.028f)),
+      Mesh mesh = clipped(surface_net(field, low, high, leg_cell(0.028f)),
                           [hem](vec3 p) { return hem + 0.05f * p.x - p.z; });
       add("trousers", std::move(mesh), bottom_cloth, Moves::bottom, crevices(field));
       if (outfit_.bottom == Bottom::shorts) add_bare_legs(s_.knee_z + 0.06f * h_, skin);
@@ -352,7 +358,7 @@ class Tailor {
           {std::min(body_.leg(p, 1.0f, 0.0f), body_.leg(p, -1.0f, 0.0f)), p.z - top, 0.035f - p.z});
     };
     vec3 low(-0.1f * h_, -0.2f * h_, 0.0f), high(0.1f * h_, 0.2f * h_, top + 0.03f);
-    add("legs", surface_net(field, low, high, cell(0.023f)), surface, Moves::bottom,
+    add("legs", surface_net(field, low, high, leg_cell(0.023f)), surface, Moves::bottom,
         [](vec3, vec3) { return 1.0f; });
   }
 

@@ -204,6 +204,48 @@ void put_down(const BodyField& body, const Stride& stride, const Feet& feet, Pos
   settle_on(body, posture, poses, length);
 }
 
+void hold_handle(const BodyField& body, Posture& posture) {
+  for (const int side : {0, 1}) {
+    set_arm(body, posture, side, 24.0f, 3.0f, 58.0f, 4.0f);
+    posture.turn[side == 0 ? left_hand : right_hand] = about(y_axis, -4.0f);
+  }
+}
+
+BicyclePlaces bicycle_for(const BodyField& body) {
+  const Skeleton& k = body.skeleton();
+  const float leg = glm::distance(k.joint[left_thigh], k.joint[left_shin]) +
+                    glm::distance(k.joint[left_shin], k.joint[left_foot]);
+  constexpr float seat_tube_rad = 1.27f, ankle_over_pedal = 0.10f, stretched = 0.93f;
+  BicyclePlaces places;
+  // Along the seat tube, until the leg at the lower pedal is nearly straight.
+  const float reach_m = stretched * leg + ankle_over_pedal - places.crank_m;
+  const float hip_over_saddle = 0.055f * body.shape().stature;
+  const float length = reach_m - hip_over_saddle;
+  places.saddle = places.cranks + length * vec3(-std::cos(seat_tube_rad), 0.0f, std::sin(seat_tube_rad));
+  return places;
+}
+
+Posture on_bicycle(const BodyField& body, const BicyclePlaces& places, float turn) {
+  const float h = body.shape().stature;
+  Posture posture;
+  posture.pelvis_position = places.saddle + vec3(0.0f, 0.0f, 0.055f * h);
+  posture.turn[pelvis] = about(y_axis, 14.0f), posture.turn[spine] = about(y_axis, 9.0f);
+  posture.turn[chest] = about(y_axis, 5.0f), posture.turn[neck] = about(y_axis, -9.0f);
+  posture.turn[head] = about(y_axis, -14.0f);
+  for (const int side : {0, 1}) {
+    set_arm(body, posture, side, 72.0f, 10.0f, 16.0f, 2.0f);
+    const float angle = turn + (side == 0 ? 0.0f : pi), sign = side == 0 ? 1.0f : -1.0f;
+    const vec3 pedal = places.cranks + places.crank_m * vec3(std::cos(angle), 0.0f, -std::sin(angle));
+    // The ball of the foot is on the pedal; the heel drops a little in front and rises behind.
+    const float pitch = glm::radians(-8.0f + 10.0f * std::cos(angle));
+    const vec3 ankle =
+        pedal + vec3(-0.75f * body.skeleton().ball_x * std::cos(pitch), sign * 0.105f,
+                     body.shape().ankle_z + 0.01f - 0.75f * body.skeleton().ball_x * std::sin(pitch));
+    place_foot(body, posture, side, ankle, pitch, 0.0f, 0.0f);
+  }
+  return posture;
+}
+
 Posture walking(const BodyField& body, const Stride& stride, const Feet& feet) {
   Posture posture = carriage(body, stride, feet[0].phase);
   put_down(body, stride, feet, posture);

@@ -70,6 +70,19 @@ enum class Activity : std::uint8_t { stand, wait, talk, phone, sit };
 Posture on_the_spot(const BodyField& body, Activity activity, float time_s, float number,
                     float seat_m = 0.45f);
 
+/// Puts the hands of somebody who stands or walks onto a handle in front of the body.
+void hold_handle(const BodyField& body, Posture& posture);
+
+/// The places of a bicycle on which somebody rides, in the person's frame.
+struct BicyclePlaces {
+  glm::vec3 saddle{-0.22f, 0.0f, 0.9f}, cranks{0.0f, 0.0f, 0.28f};
+  float crank_m = 0.17f;
+};
+/// A saddle over these cranks as high as the legs of a body need it.
+BicyclePlaces bicycle_for(const BodyField& body);
+/// Somebody who rides, hands before the chest; `turn`: radians of the left crank, from the front downward.
+Posture on_bicycle(const BodyField& body, const BicyclePlaces& places, float turn);
+
 /// Where a foot stands (0: left) of somebody at rest.
 Footprint standing_place(const BodyField& body, int side);
 

@@ -85,7 +85,7 @@ Mesh leg_tube(const BodyField& body, float side, float cloth_m) {
   return tube(
       {at(k.joint[first], 0.050f * thick + cloth_m / h), at(k.joint[first + 1], 0.033f * thick + cloth_m / h),
        at(glm::mix(k.joint[first + 1], k.joint[first + 2], 0.4f), 0.030f * thick + cloth_m / h),
-       at(k.joint[first + 2], 0.022f + cloth_m / h)},
+       at(k.joint[first + 2] - vec3(0.0f, 0.0f, 0.012f * h), 0.022f + cloth_m / h)},
       5, vec3(1, 0, 0), vec3(0, -1, 0));
 }
 

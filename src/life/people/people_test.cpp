@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "life/people/person_model.h"
+#include "life/people/companions.h"
+#include "life/people/person_pictures.h"
 #include "life/people/test_feet.h"
 #include "life/people/walking_body.h"
 #include "room_list.h"
@@ -69,7 +70,7 @@ TEST(PersonModel, IsSoundAtEveryLevelForPeopleOfAllKinds) {
     EXPECT_LE(count[0], 10'000u) << number;
     EXPECT_LT(2 * count[1], count[0]);
     EXPECT_LT(2 * count[2], count[1]);
-    EXPECT_LT(count[2], 1'200u);
+    EXPECT_LT(count[2], 1'300u);
     EXPECT_LT(count[3], 200u);
   }
 }
@@ -227,6 +228,95 @@ TEST(OnTheSpot, WhoSitsSitsOnTheSeatWithFeetOnTheGround) {
   for (const glm::vec3 p : contact_points(body, {}, posture)) EXPECT_NEAR(p.z, 0.0f, 0.01f);
 }
 
+/// Heights at which a level of somebody has no surface on one side of the body, from the ankles to the hips.
+int gaps_of_legs(const PersonLevels& levels, Detail detail) {
+  const BodyShape& s = levels.body.shape();
+  constexpr int slices = 24;
+  int gaps = 0;
+  for (const float side : {1.0f, -1.0f})
+    for (int i = 0; i < slices; ++i) {
+      const float z = std::lerp(0.03f * s.stature, 0.9f * s.hip_z, (float(i) + 0.5f) / float(slices));
+      bool is_there = false;
+      for (const scene::Part& part : levels.models[std::size_t(detail)]->parts)
+        for (std::size_t t = 0; t + 2 < part.mesh.indices.size() && !is_there; t += 3) {
+          Bounds box;
+          for (std::size_t c = 0; c < 3; ++c) box.add(part.mesh.positions[part.mesh.indices[t + c]]);
+          const bool is_leg = std::abs(box.centre().y) < 0.14f * s.stature && side * box.centre().y > 0.0f;
+          is_there = is_leg && box.min.z <= z && box.max.z >= z;
+        }
+      gaps += is_there ? 0 : 1;
+    }
+  return gaps;
+}
+
+TEST(PersonLevels, HaveWholeLegsFromHipToAnkle) {
+  for (std::uint64_t number = 0; number < 16; ++number) {
+    const Someone who = someone(number);
+    const PersonLevels levels = make_levels(who, colours_of(who, number));
+    for (const Detail detail : {Detail::near, Detail::middle, Detail::far, Detail::distant})
+      EXPECT_EQ(gaps_of_legs(levels, detail), 0) << "person " << number << ", level " << int(detail);
+  }
+}
+
+TEST(PersonPictures, AreFoundByTheirDirection) {
+  for (int d = 0; d < picture_directions; ++d) EXPECT_EQ(nearest_picture(17.0f * picture_view(d)), d);
+  EXPECT_EQ(nearest_picture({0.0f, 0.0f, 5.0f}), picture_rings[0].azimuths) << "from straight above";
+  EXPECT_EQ(nearest_picture({-3.0f, -0.01f, 0.0f}), picture_rings[0].azimuths / 2)
+      << "from behind, a turn less";
+  EXPECT_EQ(picture_of(0.99f, Activity::stand), 0) << "the cycle begins again";
+  EXPECT_EQ(picture_of(std::nullopt, Activity::phone), picture_postures - 1);
+}
+
+TEST(PersonPictures, ShowWholePeopleFromHeadToFoot) {
+  for (const std::uint64_t number : {2u, 7u, 11u}) {
+    const Someone who = someone(number);
+    const Colours own = colours_of(who, number);
+    const PersonPictures pictures = make_pictures(make_levels(who, own), who, std::span(&own, 1));
+    for (int posture = 0; posture < picture_postures; ++posture)
+      for (int d = 0; d < picture_rings[0].azimuths; ++d) {
+        const glm::ivec4 box = pictures.covered[PersonPictures::index(d, posture)];
+        const float high = float(box.w - box.y) / picture_px_per_stature;
+        EXPECT_NEAR(high, 1.0f, 0.07f) << "person " << number << " from " << d << " in " << posture;
+        EXPECT_GT(box.x, 0) << "nothing is cut off";
+        EXPECT_LT(box.z, picture_width_px);
+        const float foot_px = float(picture_height_px) + picture_px_per_stature * picture_rings[0].lowest;
+        EXPECT_NEAR(float(box.w), foot_px, 1.6f) << "they stand on the ground";
+        for (int y = box.y; y < box.w; ++y) {
+          int covered = 0;
+          for (int x = box.x; x < box.z; ++x)
+            covered +=
+                pictures.shapes.at(d * picture_width_px + x, posture * picture_height_px + y)[3] > 0 ? 1 : 0;
+          EXPECT_GT(covered, 0) << "row " << y << " from " << d << " in " << posture;
+        }
+      }
+  }
+}
+
+TEST(PersonPictures, ShowFrontsInFrontAndColoursAsTheyAreWorn) {
+  Someone who = someone(4, Sex::female, 30.0f);
+  who.outfit.bottom = Bottom::trousers;
+  std::array<Colours, 2> worn;
+  worn[0].bottom = {0.7f, 0.02f, 0.02f}, worn[1].bottom = {0.02f, 0.02f, 0.7f};
+  const PersonPictures pictures = make_pictures(make_levels(who, worn[0]), who, worn);
+  ASSERT_EQ(pictures.colours.size(), 2u);
+  const int x = picture_width_px / 2,
+            y = walking_pictures * picture_height_px;  // who stands, seen from the front
+  const int knee = y + picture_height_px - int(0.30f * picture_px_per_stature);
+  glm::ivec3 red(0), blue(0), normal(0);
+  for (int i = 0; i < picture_width_px; ++i) {
+    if (pictures.shapes.at(i, knee)[3] == 0) continue;
+    for (int c = 0; c < 3; ++c) {
+      red[c] += pictures.colours[0].at(i / pixels_per_colour, knee / pixels_per_colour)[c];
+      blue[c] += pictures.colours[1].at(i / pixels_per_colour, knee / pixels_per_colour)[c];
+      normal[c] += int(pictures.shapes.at(i, knee)[c]) - 127;
+    }
+  }
+  EXPECT_GT(red.x, 2 * red.z);
+  EXPECT_GT(blue.z, 2 * blue.x);
+  EXPECT_GT(normal.x, std::abs(normal.y)) << "the front faces ahead";
+  EXPECT_GT(pictures.shapes.at(x, y + picture_height_px / 3)[0], 170) << "so does the breast";
+}
+
 class PersonNodeTest : public scene::ScriptTest<> {
  protected:
   PersonNodeTest()
@@ -251,6 +341,45 @@ TEST_F(PersonNodeTest, PlacesSomebodyWhoDoesWhatIsAsked) {
   EXPECT_NEAR(ann.world_from_model[0].y, -1.0f, 1e-4f) << "turned clockwise";
   EXPECT_EQ(ann.model->animations[std::size_t(ann.played.animation)].name, "sit");
   EXPECT_EQ(ann.deformed_meshes.size(), ann.model->parts.size());
+}
+
+TEST_F(PersonNodeTest, HaveWithThemWhatIsAsked) {
+  const scene::Scene scene = scene_of(
+      "person(name=\"a\", seed=4, age=30, with=\"pram\")\nperson(name=\"b\", seed=4, age=70, "
+      "with=\"wheelchair\")\n"
+      "person(name=\"c\", seed=4, age=40, with=\"dog\")\n");
+  ASSERT_EQ(scene.objects.size(), 6u);
+  const auto bounds_called = [&](const std::string& name) {
+    const auto found = std::ranges::find(scene.objects, name, &scene::Object::name);
+    return found == scene.objects.end() ? Bounds{} : scene::bounds(*found->model);
+  };
+  const Bounds pram = bounds_called("a's pram"), chair = bounds_called("b's wheelchair"),
+               dog = bounds_called("c's dog");
+  for (const Bounds& box : {pram, chair, dog}) EXPECT_NEAR(box.min.z, 0.0f, 0.01f) << "stands on the ground";
+  EXPECT_GT(pram.min.x, 0.15f) << "before the body";
+  EXPECT_NEAR(pram.size().x, 1.1f, 0.3f);
+  EXPECT_NEAR(chair.size().y, 0.62f, 0.15f);
+  EXPECT_LT(dog.min.y, -0.5f) << "at the right side";
+  EXPECT_NEAR(dog.max.z, 0.8f, 0.35f);
+  const auto person = std::ranges::find(scene.objects, std::string("b"), &scene::Object::name);
+  EXPECT_NEAR(person->world_from_model[3].z, footrest_m, 1e-5f) << "on the footrests";
+  EXPECT_EQ(person->model->animations[std::size_t(person->played.animation)].name, "sit");
+}
+
+TEST(Companions, HandsLieOnTheHandle) {
+  const BodyField body = adult();
+  Posture posture = on_the_spot(body, Activity::stand, 0.0f, 0.0f);
+  hold_handle(body, posture);
+  const std::vector<glm::mat4> pose = pose_of(body.skeleton(), posture);
+  const scene::Model model = *companion_model(Companion::pram, body, 1);
+  for (const int bone : {int(left_fingers), int(right_fingers)}) {
+    float nearest_m = 1e9f;
+    for (const scene::Part& part : model.parts)
+      if (part.node == 0)
+        for (const glm::vec3 p : part.mesh.positions)
+          nearest_m = std::min(nearest_m, glm::distance(p, glm::vec3(pose[std::size_t(bone) + 1][3])));
+    EXPECT_LT(nearest_m, 0.09f) << "the joint of the fingers is a palm away from it";
+  }
 }
 
 TEST_F(PersonNodeTest, BadValuesAreErrors) {

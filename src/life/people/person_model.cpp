@@ -63,12 +63,16 @@ scene::Animation animation(const char* name, const std::vector<Posture>& posture
   return result;
 }
 
-void add_animations(const BodyField& body, float speed_m_s, scene::Model& model) {
+void add_animations(const BodyField& body, float speed_m_s, bool holds_handle, scene::Model& model) {
+  const auto with_hands = [&](Posture posture) {
+    if (holds_handle) hold_handle(body, posture);
+    return posture;
+  };
   const Stride stride = stride_of(body.shape(), speed_m_s);
   std::vector<Posture> walk;
   for (int i = 0; i <= walk_keys; ++i)
-    walk.push_back(
-        walking(body, stride, straight_feet(body, stride, float(i % walk_keys) / float(walk_keys))));
+    walk.push_back(with_hands(
+        walking(body, stride, straight_feet(body, stride, float(i % walk_keys) / float(walk_keys)))));
   model.animations.push_back(animation("walk", walk, stride.length_m / speed_m_s));
   const std::array<std::pair<const char*, Activity>, 5> activities{{{"stand", Activity::stand},
                                                                     {"wait", Activity::wait},
@@ -80,7 +84,8 @@ void add_animations(const BodyField& body, float speed_m_s, scene::Model& model)
     for (int i = 0; i < spot_keys; ++i) {
       // There and back, so that the end is the beginning.
       const float t = 1.0f - std::abs(2.0f * float(i) / float(spot_keys - 1) - 1.0f);
-      keys.push_back(on_the_spot(body, activity, 0.5f * spot_s * t, body.shape().stature * 31.0f));
+      keys.push_back(
+          with_hands(on_the_spot(body, activity, 0.5f * spot_s * t, body.shape().stature * 31.0f)));
     }
     model.animations.push_back(animation(name, keys, spot_s));
   }
@@ -281,12 +286,12 @@ std::vector<scene::Material> painted(const scene::Model& model, const Colours& c
   return materials;
 }
 
-PersonMesh make_person(const Someone& who, const Colours& colours, float speed_m_s) {
+PersonMesh make_person(const Someone& who, const Colours& colours, float speed_m_s, bool holds_handle) {
   PersonMesh result{BodyField(shape_of(who.person)), nullptr};
   const HeadField head(result.body, who.head);
   scene::Model model = dressed_model(result.body, head, who, colours, Detail::near);
   model.textures = textures(face_texture(head, who.head, 512));
-  add_animations(result.body, speed_m_s, model);
+  add_animations(result.body, speed_m_s, holds_handle, model);
   result.model = std::make_shared<const scene::Model>(std::move(model));
   return result;
 }

@@ -45,8 +45,10 @@ struct PersonMesh {
   BodyField body;
   std::shared_ptr<const scene::Model> model;
 };
-/// Makes a person; `speed_m_s` is that of the animation "walk".
-PersonMesh make_person(const Someone& who, const Colours& colours, float speed_m_s = 1.3f);
+/// Makes a person; `speed_m_s` is that of the animation "walk". Whose hands hold a handle keeps them there in
+/// all animations.
+PersonMesh make_person(const Someone& who, const Colours& colours, float speed_m_s = 1.3f,
+                       bool holds_handle = false);
 
 /// Somebody at every level of detail. Models of the levels `far` and `distant` have one part and one
 /// material: what somebody wears is in the colours of their vertices.

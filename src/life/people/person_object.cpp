@@ -6,16 +6,21 @@
 
 namespace parvis::people {
 
+Someone someone_of(const PersonRequest& request) {
+  const Someone drawn = someone(request.seed);
+  return someone(request.seed, request.sex.value_or(drawn.person.sex),
+                 request.age.value_or(drawn.person.age));
+}
+
 scene::Object person_object(const PersonRequest& request, scene::SceneBuilder& builder) {
   const std::uint64_t seed = request.seed;
-  const Someone drawn = someone(seed);
-  const Sex sex = request.sex.value_or(drawn.person.sex);
-  const float age = request.age.value_or(drawn.person.age);
-  const Someone who = someone(seed, sex, age);
-  const std::string key = fmt::format("person {} {} {} {}", seed, int(sex), age, request.speed_m_s);
+  const Someone who = someone_of(request);
+  const std::string key = fmt::format("person {} {} {} {} {}", seed, int(who.person.sex), who.head.age,
+                                      request.speed_m_s, request.holds_handle);
   scene::Object object;
-  object.model = builder.shared_model(
-      key, [&] { return make_person(who, colours_of(who, seed), request.speed_m_s).model; });
+  object.model = builder.shared_model(key, [&] {
+    return make_person(who, colours_of(who, seed), request.speed_m_s, request.holds_handle).model;
+  });
   const std::vector<scene::Animation>& animations = object.model->animations;
   const auto found = std::ranges::find(animations, request.does, &scene::Animation::name);
   const int animation = int(found - animations.begin());

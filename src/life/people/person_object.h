@@ -17,7 +17,11 @@ struct PersonRequest {
   float speed_m_s = 1.3f;         ///< of who walks
   std::string does = "stand";     ///< an animation of `make_person`
   bool is_still = false;          ///< a posture in place of the animation
+  bool holds_handle = false;      ///< of a pram, say
 };
+
+/// The person of a request without its colours: sex and age as asked for.
+Someone someone_of(const PersonRequest& request);
 
 /// An object of this model, which all objects of the same person share, in its posture; x forward, feet at
 /// z = 0. Its name and place are the caller's.

@@ -28,32 +28,32 @@ struct Lattice {
 
 /// Fills a block of a lattice: values far from the surface are those of the middles of their blocks, the
 /// others are found in smaller blocks.
-void sample_block(const Field& field, glm::vec3 low, float cell_m, glm::ivec3 first, int block,
+void sample_block(const Field& field, glm::vec3 low, glm::vec3 cell, glm::ivec3 first, int block,
                   Lattice& lattice) {
   constexpr int smallest = 2, next = 2;
   const glm::ivec3 end = glm::min(first + block, lattice.size);
-  const float there = field(low + cell_m * (glm::vec3(first) + 0.5f * float(block - 1)));
-  const float reach = 1.6f * 0.87f * float(block) * cell_m;  // half of the diagonal, and slopes above 1
+  const float there = field(low + cell * (glm::vec3(first) + 0.5f * float(block - 1)));
+  const float reach =
+      1.6f * 0.5f * float(block) * glm::length(cell);  // half of the diagonal, and slopes above 1
   const bool is_far = std::abs(there) > reach;
   if (!is_far && block > smallest) {
     for (int z = first.z; z < end.z; z += next)
       for (int y = first.y; y < end.y; y += next)
-        for (int x = first.x; x < end.x; x += next)
-          sample_block(field, low, cell_m, {x, y, z}, next, lattice);
+        for (int x = first.x; x < end.x; x += next) sample_block(field, low, cell, {x, y, z}, next, lattice);
     return;
   }
   for (int z = first.z; z < end.z; ++z)
     for (int y = first.y; y < end.y; ++y)
       for (int x = first.x; x < end.x; ++x)
-        lattice.values[lattice.index({x, y, z})] = is_far ? there : field(low + cell_m * glm::vec3(x, y, z));
+        lattice.values[lattice.index({x, y, z})] = is_far ? there : field(low + cell * glm::vec3(x, y, z));
 }
 
-Lattice sampled(const Field& field, glm::vec3 low, glm::ivec3 size, float cell_m) {
+Lattice sampled(const Field& field, glm::vec3 low, glm::ivec3 size, glm::vec3 cell) {
   constexpr int block = 6;
   Lattice lattice{size, std::vector<float>(std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z))};
   for (int z = 0; z < size.z; z += block)
     for (int y = 0; y < size.y; y += block)
-      for (int x = 0; x < size.x; x += block) sample_block(field, low, cell_m, {x, y, z}, block, lattice);
+      for (int x = 0; x < size.x; x += block) sample_block(field, low, cell, {x, y, z}, block, lattice);
   return lattice;
 }
 
@@ -145,8 +145,13 @@ glm::vec3 normal_of(const Field& field, glm::vec3 p, float step_m) {
 }
 
 Mesh surface_net(const Field& field, glm::vec3 low, glm::vec3 high, float cell_m) {
-  const glm::ivec3 size = glm::ivec3(glm::ceil((high - low) / cell_m)) + 2;
-  const Lattice lattice = sampled(field, low, size, cell_m);
+  return surface_net(field, low, high, glm::vec3(cell_m));
+}
+
+Mesh surface_net(const Field& field, glm::vec3 low, glm::vec3 high, glm::vec3 cell) {
+  const float cell_m = std::min({cell.x, cell.y, cell.z});
+  const glm::ivec3 size = glm::ivec3(glm::ceil((high - low) / cell)) + 2;
+  const Lattice lattice = sampled(field, low, size, cell);
   Mesh mesh;
   std::vector<int> vertex_of(lattice.values.size(), -1);
   for (int z = 0; z + 1 < size.z; ++z)
@@ -155,7 +160,7 @@ Mesh surface_net(const Field& field, glm::vec3 low, glm::vec3 high, float cell_m
         glm::vec3 vertex;
         if (!vertex_of_cell(lattice, {x, y, z}, vertex)) continue;
         vertex_of[lattice.index({x, y, z})] = int(mesh.positions.size());
-        mesh.positions.push_back(low + cell_m * vertex);
+        mesh.positions.push_back(low + cell * vertex);
       }
   add_quads(lattice, vertex_of, mesh);
   for (glm::vec3& p : mesh.positions) {

@@ -37,6 +37,8 @@ glm::vec3 normal_of(const Field& field, glm::vec3 p, float step_m = 0.002f);
 
 /// The surface of a field within a box, in cells of `cell_m`; normals are those of the field.
 Mesh surface_net(const Field& field, glm::vec3 low, glm::vec3 high, float cell_m);
+/// The same in cells whose sides differ: thin upright things keep their shape in cells that are high.
+Mesh surface_net(const Field& field, glm::vec3 low, glm::vec3 high, glm::vec3 cell);
 
 /// The part of a mesh in which `keep` is negative, cut along its zeros.
 Mesh clipped(const Mesh& mesh, const Field& keep);

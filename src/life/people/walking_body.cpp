@@ -131,6 +131,16 @@ Lead WalkingBody::lead_at(float part) const {
           std::lerp(before_.lead.heading, now_.lead.heading, part)};
 }
 
+double WalkingBody::carriage_at(float part) const {
+  const double advance = now_.carriage_phase - before_.carriage_phase;
+  return before_.carriage_phase + double(part) * (std::abs(advance) < 0.5 ? advance : 0.0);
+}
+
+std::optional<float> WalkingBody::cycle_at(float part) const {
+  if (std::lerp(before_.walking, now_.walking, part) < 0.5f) return std::nullopt;
+  return in_cycle(carriage_at(part));
+}
+
 Posture WalkingBody::posture_at(float part) const {
   const Lead lead = lead_at(part);
   const Stride stride =
@@ -159,11 +169,7 @@ Posture WalkingBody::posture_at(float part) const {
     }
   }
   const float walking = std::lerp(before_.walking, now_.walking, part);
-  const double phase =
-      before_.carriage_phase + double(part) * (std::abs(now_.carriage_phase - before_.carriage_phase) < 0.5
-                                                   ? now_.carriage_phase - before_.carriage_phase
-                                                   : 0.0);
-  Posture posture = carriage(*body_, stride, in_cycle(phase));
+  Posture posture = carriage(*body_, stride, in_cycle(carriage_at(part)));
   if (walking < 1.0f) {
     const Posture spot =
         on_the_spot(*body_, activity, float(std::lerp(before_.time_s, now_.time_s, double(part))), number_);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "life/people/gait.h"
 
@@ -31,6 +32,8 @@ class WalkingBody {
   Lead lead_at(float part) const;
   /// The posture at that time, in the frame of the lead.
   Posture posture_at(float part) const;
+  /// The phase of the left foot's cycle at that time, 0..1, of a body that holds itself as one who walks.
+  std::optional<float> cycle_at(float part) const;
 
   /// False when it stands, or shifts its feet where it stands.
   bool walks() const { return now_.walks; }
@@ -53,6 +56,7 @@ class WalkingBody {
     bool walks = false;
   };
 
+  double carriage_at(float part) const;
   Footprint in_world(const Footprint& print, const Lead& lead, const GroundHeight& ground) const;
   void walk(float way_m, float step_s, const Stride& stride, const GroundHeight& ground);
   void stand(float step_s, const Stride& stride, const GroundHeight& ground);
