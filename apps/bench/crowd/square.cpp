@@ -218,7 +218,7 @@ double switch_flip(const BenchSetup& setup, float apart_m) {
     return stage->picture();
   };
   double worst = 0.0;
-  for (const float reach_m : {5.0f, 14.0f, 30.0f}) {
+  for (const float reach_m : crowd::ShownPeople::reach_m) {
     picture(1.3f * reach_m);  // the coarser level
     const Image8 far = picture(reach_m + 0.5f * apart_m);
     const people::Detail coarser = level();
@@ -260,6 +260,10 @@ void measure_square(const BenchSetup& setup, Report& report) {
   report.add("people_in_vehicles_paths_unheeded", double(without.in_paths.count()));
   report.add("overlaps_per_person_hour_vehicles_unheeded",
              without.per_person_hour(without.in_vehicles.count()));
+  stage::Simulation crammed = square(setup);
+  crammed.clock.find<traffic::TrafficProcess>()->traffic().simulation().keeps_crossings_free = false;
+  report.add("blocked_crossings_without_room",
+             double(watch(crammed, std::max(seconds / 10.0f, 120.0f)).on_crossings.count()));
   report.add("foot_slide_cm", foot_slide_cm(simulation, 20.0f, 1.0f));
   report.add("foot_slide_cm_stretched", foot_slide_cm(simulation, 10.0f, 1.1f));
 }

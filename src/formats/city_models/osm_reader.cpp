@@ -43,6 +43,8 @@ bool is_drawn(const OsmTags& tags, bool is_alone) {
   if (says_yes(tags, "building") || says_yes(tags, "building:part") || is_street(tags) || is_bridge(tags))
     return true;
   if (is_alone && (is_on_ground(tags) || is("highway", {"crossing"}))) return true;
+  // Nodes of the model: lights and poles are set up there.
+  if (is("highway", {"traffic_signals", "bus_stop"})) return true;
   return is("natural", {"tree", "tree_row", "wood"}) || is("landuse", {"forest"}) ||
          is("railway", {"tram", "rail", "light_rail", "narrow_gauge", "subway"}) ||
          is("barrier", {"hedge", "fence", "wall", "retaining_wall", "city_wall"});
@@ -147,6 +149,7 @@ Result<Model> model_of_osm(const OsmFile& osm, const std::filesystem::path& file
   Result<Model> model = city.finish(buildings);
   if (!model) return model;
   if (ramps) raise_ground(*model, *ramps);
+  add_osm_signals_and_stops(osm, place, roads, origin, shaped, *model);
   model->roads = std::move(roads);
   model->map = osm.map;
   model->true_north_deg = osm.true_north_deg;

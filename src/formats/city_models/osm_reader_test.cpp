@@ -18,6 +18,7 @@
 #include "formats/city_models/test_osm.h"
 #include "formats/readers/test_packing.h"
 #include "formats/terrain/map_projection.h"
+#include "land/roads/places_on_map.h"
 #include "land/roads/road_builder.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/test_scene.h"
@@ -753,6 +754,39 @@ TEST(Osm, CrossingsArePaintedAsTheirTagsSay) {
     EXPECT_LT(paint_m2("crossing:markings", broken), 1.2) << broken;
   }
   for (const char* bare : {"unmarked", "no"}) EXPECT_EQ(paint_m2("crossing", bare), 0.0) << bare;
+}
+
+TEST(Osm, TrafficLightsOnStreetsAreNodesOfTheModel) {
+  const auto lights = [](const std::string& tags, double lat) {
+    const Read town = read(osm(fmt::format(R"(<node id="12" lat="{}" lon="4.4905">{}</node>)", lat, tags) +
+                               way(100, "11 12 13", {{"highway", "residential"}})));
+    Object object;
+    object.model = std::make_shared<const Model>(*town.model);
+    return places_on_map(object, map_signal_node);
+  };
+  const std::vector<glm::vec3> found = lights(R"(<tag k="highway" v="traffic_signals"/>)", 52.1595);
+  ASSERT_EQ(found.size(), 1u);
+  const std::string crossing = R"(<tag k="highway" v="crossing"/>)";
+  EXPECT_EQ(lights(crossing + R"(<tag k="crossing" v="traffic_signals"/>)", 52.1595).size(), 1u);
+  EXPECT_EQ(lights(crossing + R"(<tag k="crossing:signals" v="yes"/>)", 52.1595).size(), 1u);
+  EXPECT_EQ(lights(crossing + R"(<tag k="crossing" v="zebra"/>)", 52.1595).size(), 0u);
+  const Read town = read(osm(way(100, "11 12 13", {{"highway", "residential"}})));
+  const std::vector<glm::vec3>& path = town.model->roads.front().path;
+  EXPECT_TRUE(std::ranges::any_of(path, [&](glm::vec3 p) { return glm::distance(p, found.front()) < 0.01f; }))
+      << "on the street, in the model's frame";
+  const Read beside =
+      read(osm(R"(<node id="77" lat="52.1595" lon="4.4907"><tag k="highway" v="traffic_signals"/></node>)" +
+               way(100, "11 12 13", {{"highway", "residential"}})));
+  Object object;
+  object.model = std::make_shared<const Model>(*beside.model);
+  EXPECT_TRUE(places_on_map(object, map_signal_node).empty()) << "on no street";
+  const Read stop = read(osm(
+      R"(<node id="77" lat="52.15953" lon="4.4907"><tag k="highway" v="bus_stop"/></node>
+<node id="78" lat="52.15947" lon="4.4907"><tag k="public_transport" v="platform"/><tag k="bus" v="yes"/></node>
+<node id="79" lat="52.15940" lon="4.4907"><tag k="public_transport" v="platform"/><tag k="tram" v="yes"/></node>)" +
+      way(100, "11 12 13", {{"highway", "residential"}})));
+  object.model = std::make_shared<const Model>(*stop.model);
+  EXPECT_EQ(places_on_map(object, map_bus_stop_node).size(), 2u) << "of buses";
 }
 
 /// The same content as a file of the other format, by libosmium.

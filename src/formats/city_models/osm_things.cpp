@@ -9,6 +9,7 @@
 #include "formats/city_models/osm_measures.h"
 #include "formats/city_models/osm_segments.h"
 #include "formats/city_models/osm_shapes.h"
+#include "land/roads/places_on_map.h"
 
 namespace parvis::scene {
 namespace {
@@ -498,6 +499,31 @@ void add_osm_crossings(const OsmFile& osm, const OsmPlaces& place, const std::ve
       }
       if (marks->gap_m == 0.0) break;
     }
+  }
+}
+
+void add_osm_signals_and_stops(const OsmFile& osm, const OsmPlaces& place, const std::vector<Road>& roads,
+                               const dvec3& origin, const GroundOnMap& ground, Model& model) {
+  constexpr double near_m = 0.6;  // signals are nodes of their street
+  const RoadPoints points(roads);
+  const auto add = [&](std::string_view name, dvec3 at) {
+    ModelNode node;
+    node.name = name, node.parent = 0, node.translation = at;
+    model.nodes.push_back(std::move(node));
+  };
+  for (const OsmNode& node : osm.tagged_nodes) {
+    const std::string &highway = tag(node.tags, "highway"), &crossing = tag(node.tags, "crossing");
+    const bool has_signals = highway == "traffic_signals" ||
+                             (highway == "crossing" &&
+                              (crossing == "traffic_signals" || tag(node.tags, "crossing:signals") == "yes"));
+    const bool is_stop = highway == "bus_stop" ||
+                         (tag(node.tags, "public_transport") == "platform" && tag(node.tags, "bus") == "yes");
+    const auto at = has_signals || is_stop ? place(node.id) : std::nullopt;
+    if (!at) continue;
+    const dvec2 here = *at - dvec2(origin);
+    if (is_stop) add(map_bus_stop_node, dvec3(here, ground ? ground(*at) : 0.0));
+    if (const auto point = points.near(here, near_m); has_signals && point)
+      add(map_signal_node, dvec3(roads[point->road].path[point->index]));
   }
 }
 

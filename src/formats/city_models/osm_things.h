@@ -41,4 +41,10 @@ void add_osm_bridges(const OsmFile& osm, const OsmRelief& relief, const GroundOn
 void add_osm_crossings(const OsmFile& osm, const OsmPlaces& place, const std::vector<Road>& roads,
                        const glm::dvec3& origin, CityAssembly& city);
 
+/// Adds a node (land/roads/places_on_map.h) for each traffic light on a road of `roads` (nodes
+/// highway=traffic_signals, and crossings whose `crossing` or `crossing:signals` says that they have some),
+/// and for each bus stop: nodes highway=bus_stop, and platforms of buses.
+void add_osm_signals_and_stops(const OsmFile& osm, const OsmPlaces& place, const std::vector<Road>& roads,
+                               const glm::dvec3& origin, const GroundOnMap& ground, Model& model);
+
 }  // namespace parvis::scene

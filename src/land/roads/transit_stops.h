@@ -1,5 +1,5 @@
-// Stops of vehicles that people board, while a scene runs: trams write where they stand with open doors, and
-// people write who is still on the way to these.
+// Stops of vehicles that people board, while a scene runs: buses and trams write where they stand with open
+// doors, and people write who is still on the way to these.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -19,9 +19,11 @@ struct TrafficDemand {
   std::vector<std::shared_ptr<const scene::Model>>
       models;              ///< x forward, wheels as nodes whose names hold "wheel"
   bool is_visible = true;  ///< hidden vehicles drive on
+  int bicycles = 0;        ///< beside the vehicles
 
   void hash(ContentHash& hash) const {
     hash.add(vehicles);
+    hash.add(bicycles);
     hash.add(seed);
     hash.add(is_visible);
     for (const auto& model : models) hash.add_text(model->name), hash.add(model->triangle_count());

@@ -30,12 +30,13 @@ struct SignalDemand {
   float offset_s = 0.0f;     ///< how long the first phase has run when the scene begins
   float beside_m = 0.9f;     ///< of masts from the edge of the outer lane
   bool is_visible = true;
+  bool is_of_map = false;   ///< a map has a light there: without a junction near it there is none
   FileLocation where = {};  ///< of its node
 
   /// Adds all members but `where`; see SceneData.
   void hash(ContentHash& hash) const {
     hash.add_text(called), hash.add(position), hash.add(green_s), hash.add(offset_s), hash.add(beside_m);
-    hash.add(is_visible);
+    hash.add(is_visible), hash.add(is_of_map);
   }
 };
 

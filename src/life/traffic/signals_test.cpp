@@ -7,6 +7,8 @@
 #include "land/roads/road_builder.h"
 #include "life/traffic/test_cars.h"
 #include "life/traffic/traffic.h"
+#include "room_list.h"
+#include "scene/script/test_script.h"
 
 namespace parvis::traffic {
 namespace {
@@ -153,6 +155,40 @@ TEST(Signals, FarFromAJunctionAreAnError) {
   const Result<SignalJunction> lights = signals_at(place.scene.roads, place.crossings, demand);
   ASSERT_FALSE(lights);
   EXPECT_NE(to_string(lights.errors()).find("no junction of three streets"), std::string::npos);
+}
+
+class LightsNodeTest : public scene::ScriptTest<> {
+ protected:
+  LightsNodeTest()
+      : ScriptTest([] {
+          Registries registries;
+          script::register_room(registries), action::register_room(registries),
+              meshes::register_room(registries), roads::register_room(registries),
+              traffic::register_room(registries);
+          return registries;
+        }()) {}
+};
+
+TEST_F(LightsNodeTest, NeedAPlaceOrAMap) {
+  constexpr const char* streets = "road(path=\"-80 0, 80 0\")\nroad(path=\"0 -80, 0 80\")\n";
+  const scene::Scene lit = scene_of(std::string(streets) + "trafficLights(position=\"0 0 0\")\n");
+  EXPECT_EQ(lit.items<SignalDemand>().size(), 1u);
+  EXPECT_TRUE(holds(errors_of(std::string(streets) + "trafficLights()"), "scene.xp:3:1: "));
+  EXPECT_TRUE(
+      holds(errors_of(std::string(streets) + "trafficLights(of=\"town\")"), "no model called \"town\""));
+}
+
+TEST(Signals, OfAMapStandAtJunctionsOnce) {
+  Crossroads place;
+  SignalDemand of_map;
+  of_map.is_of_map = true;
+  for (const glm::vec3 p : {glm::vec3(9, 0, 0), {-9, 0, 0}, {120, 0, 0}}) {
+    of_map.position = p;
+    place.scene.data<scene::ItemsOf<SignalDemand>>().add(of_map, 1);
+  }
+  const Traffic traffic(place.scene, place.crossings);
+  EXPECT_EQ(traffic.simulation().signals().junctions().size(), 1u)
+      << "one junction, whatever the map has beside it";
 }
 
 }  // namespace

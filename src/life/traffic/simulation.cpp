@@ -23,6 +23,7 @@ constexpr float bridge_m = 3.0f;
 constexpr float over_line_m = 0.3f;    // who is farther past a stop line drives on
 constexpr float before_line_m = 1.0f;  // of the place at which a driver aims
 constexpr float tram_soon_s = 8.0f;    // within which nobody drives onto its track
+constexpr float halted_m_s = 0.15f;    // a bus that is slower has halted
 constexpr float touching_m = 0.2f;     // no vehicle comes nearer to another, whatever the model says
 
 /// Index into the route of the first shared lane before the vehicle that it does not hold; the route's size
@@ -52,7 +53,7 @@ Simulation::Simulation(const scene::RoadGraph& roads, std::vector<VehicleShape> 
   wanted_.reserve(longest_route);
 }
 
-std::size_t Simulation::spread_vehicles(std::size_t wanted, std::uint64_t seed) {
+std::size_t Simulation::spread_vehicles(std::size_t wanted, std::uint64_t seed, std::size_t bicycles) {
   struct Place {
     int lane;
     float front_m;
@@ -82,10 +83,13 @@ std::size_t Simulation::spread_vehicles(std::size_t wanted, std::uint64_t seed) 
   for (std::size_t i = places.size(); i > 1; --i)
     std::swap(places[i - 1], places[std::size_t(random.index(int(i)))]);
   const std::size_t room = std::size_t(std::ceil(share_of_room * float(places.size())));
-  const std::size_t count = std::min(wanted, room);
+  std::vector<const VehicleShape*> motored, ridden;
+  for (const VehicleShape& shape : shapes_) (shape.rider ? ridden : motored).push_back(&shape);
+  const std::size_t count = std::min(wanted + bicycles, room), motors = std::min(wanted, count);
   for (std::size_t i = 0; i < count; ++i) {
     Vehicle vehicle;
-    vehicle.shape = &shapes_[std::size_t(random.index(int(shapes_.size())))];
+    const std::vector<const VehicleShape*>& kinds = i < motors ? motored : ridden;
+    vehicle.shape = kinds[std::size_t(random.index(int(kinds.size())))];
     vehicle.random = Random(seed, i + 1);
     vehicle.route.reserve(longest_route);
     vehicle.route.push_back(places[i].lane);
@@ -279,8 +283,9 @@ void Simulation::heed_crossings(std::size_t index, Obstacle& nearest) {
     if (!met) continue;
     const float stop_m = met->from_m - before_stripes_m;
     const bool can_stop = stop_m > 0.0f && stop_m >= stopping_m;
-    const bool would_stand =
-        nearest.gap_m < met->to_m + vehicle.length_m() + before_stripes_m && nearest.speed < slow_ahead;
+    const bool would_stand = keeps_crossings_free &&
+                             nearest.gap_m < met->to_m + vehicle.length_m() + before_stripes_m &&
+                             nearest.speed < slow_ahead;
     if (can_stop && (streets_->people[c] != 0 || would_stand)) {
       if (stop_m < nearest.gap_m) nearest = {stop_m, 0.0f};
     } else if (!can_stop) {
@@ -297,11 +302,47 @@ void Simulation::heed_rails(std::size_t index, Obstacle& nearest) {
     const std::optional<Stretch> met = stretch_on(index, rail.strip, stopping_m + crossing_looked_for_m);
     if (!met) continue;
     const float stop_m = met->from_m - before_stripes_m;
-    const bool would_stand =
-        nearest.gap_m < met->to_m + vehicle.length_m() + before_stripes_m && nearest.speed < slow_ahead;
+    const bool would_stand = keeps_crossings_free &&
+                             nearest.gap_m < met->to_m + vehicle.length_m() + before_stripes_m &&
+                             nearest.speed < slow_ahead;
     if (stop_m > 0.0f && stop_m >= stopping_m && (rail.tram_in_s < tram_soon_s || would_stand) &&
         stop_m < nearest.gap_m)
       nearest = {stop_m, 0.0f};
+  }
+}
+
+void Simulation::set_bus_stops(std::vector<BusStop> stops,
+                               std::shared_ptr<std::vector<scene::TransitStop>> shown) {
+  bus_stops_ = std::move(stops), shown_stops_ = std::move(shown);
+  bus_trips_.assign(vehicles_.size(), {});
+  for (std::size_t i = 0; i < vehicles_.size(); ++i) bus_trips_[i].is_bus = is_bus(*vehicles_[i].shape);
+}
+
+/// Buses halt at the stops on their way, where doors open until nobody is on the way to them any more.
+void Simulation::heed_bus_stops(std::size_t index, Obstacle& nearest) {
+  const Vehicle& vehicle = vehicles_[index];
+  BusTrip& trip = bus_trips_[index];
+  if (!trip.is_bus) return;
+  if (trip.served >= 0 && bus_stops_[std::size_t(trip.served)].lane != vehicle.lane()) trip.served = -1;
+  float ahead_m = -vehicle.front_m;
+  for (std::size_t i = vehicle.current; i < vehicle.route.size() && ahead_m < planned_ahead_m; ++i) {
+    for (std::size_t s = 0; s < bus_stops_.size(); ++s) {
+      const BusStop& stop = bus_stops_[s];
+      const float to_stop_m = ahead_m + stop.front_m;
+      if (stop.lane != vehicle.route[i] || int(s) == trip.served || to_stop_m < -bus_halts_within_m) continue;
+      const float gap_m = std::max(to_stop_m, 0.0f) + driver_.standing_gap_m + touching_m;
+      if (gap_m < nearest.gap_m) nearest = {gap_m, 0.0f};
+      if (to_stop_m > bus_halts_within_m || vehicle.speed > halted_m_s) continue;
+      scene::TransitStop& shown = (*shown_stops_)[s];
+      trip.stop = int(s), trip.halts_s += step_s;
+      const float open_until_s = bus_doors_s + stop.dwell_s;
+      const bool waits = shown.boarding > 0 && trip.halts_s < open_until_s + bus_waits_s;
+      shown.is_open = trip.halts_s > bus_doors_s && (trip.halts_s < open_until_s || waits);
+      shown.open_s = std::max(open_until_s - trip.halts_s, 0.0f);
+      if (trip.halts_s > open_until_s + bus_doors_s && !waits)
+        trip.stop = -1, trip.served = int(s), trip.halts_s = 0.0f, shown.is_open = false;
+    }
+    ahead_m += lanes_[std::size_t(vehicle.route[i])].path.length();
   }
 }
 
@@ -311,7 +352,8 @@ void Simulation::write_lights() {
 
 /// The speed from which gentle braking reaches every slower place ahead in time.
 float Simulation::wanted_speed(const Vehicle& vehicle) const {
-  float wanted = lanes_[std::size_t(vehicle.lane())].safe_speed_at(vehicle.front_m);
+  float wanted = std::min(lanes_[std::size_t(vehicle.lane())].safe_speed_at(vehicle.front_m),
+                          vehicle.shape->max_speed_m_s);
   float ahead_m = lanes_[std::size_t(vehicle.lane())].path.length() - vehicle.front_m;
   for (std::size_t i = vehicle.current + 1; i < vehicle.route.size() && ahead_m < planned_ahead_m; ++i) {
     const DrivingLane& lane = lanes_[std::size_t(vehicle.route[i])];
@@ -364,6 +406,7 @@ void Simulation::step() {
     Vehicle& vehicle = vehicles_[i];
     Obstacle obstacle = obstacle_ahead(i);
     heed_signals(i, obstacle);
+    if (!bus_stops_.empty()) heed_bus_stops(i, obstacle);
     if (streets_) heed_rails(i, obstacle);
     if (streets_ && heeds_crossings && (streets_->has_people || !signals_.empty()))
       heed_crossings(i, obstacle);

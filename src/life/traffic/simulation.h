@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "land/roads/street_crossings.h"
+#include "life/traffic/bus_stops.h"
 #include "life/traffic/car_following.h"
 #include "life/traffic/signals.h"
 #include "life/traffic/vehicle.h"
@@ -22,9 +23,9 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Places up to `wanted` vehicles at rest on the streets of the area, with room between them, and returns
-  /// how many fitted.
-  std::size_t spread_vehicles(std::size_t wanted, std::uint64_t seed);
+  /// Places up to `wanted` vehicles with motors, then up to `bicycles`, at rest on the streets of the area,
+  /// with room between them, and returns how many fitted. Asserts that there are shapes of what is wanted.
+  std::size_t spread_vehicles(std::size_t wanted, std::uint64_t seed, std::size_t bicycles = 0);
   /// Advances the simulation by `step_s`. Allocates no memory.
   void step();
   /// Sets traffic lights, which vehicles obey from now on.
@@ -34,10 +35,17 @@ class Simulation {
   /// crossings are taken by vehicles, what lights people see, and where vehicles are. It must outlive the
   /// simulation.
   void share(scene::StreetTraffic& streets);
+  /// Sets the stops at which buses halt, and how people see them: the first ones of `shown`, in the same
+  /// order. After vehicles are spread, before the first step.
+  void set_bus_stops(std::vector<BusStop> stops, std::shared_ptr<std::vector<scene::TransitStop>> shown);
+  /// The trips of the vehicles between these stops, in the order of vehicles().
+  const std::vector<BusTrip>& bus_trips() const { return bus_trips_; }
   /// False: vehicles drive as if all lights were green.
   bool heeds_signals = true;
   /// False: they drive and stand on crossings as if nobody walked there.
   bool heeds_crossings = true;
+  /// False: they drive onto crossings and tracks without room for them behind.
+  bool keeps_crossings_free = true;
 
   /// Lanes of the road graph after streets are cut.
   const std::vector<DrivingLane>& lanes() const { return lanes_; }
@@ -71,6 +79,7 @@ class Simulation {
                                     float seen_m) const;
   void heed_crossings(std::size_t index, Obstacle& nearest);
   void heed_rails(std::size_t index, Obstacle& nearest);
+  void heed_bus_stops(std::size_t index, Obstacle& nearest);
   void write_lights();
   void write_vehicles();
   float wanted_speed(const Vehicle& vehicle) const;
@@ -91,6 +100,9 @@ class Simulation {
   std::vector<std::size_t> from_west_;  ///< vehicles in the order of x, at the step's beginning
   float longest_reach_m_ = 0.0f;        ///< between the middles of two vehicles that touch
   Signals signals_;
+  std::vector<BusStop> bus_stops_;
+  std::shared_ptr<std::vector<scene::TransitStop>> shown_stops_;  ///< as people see them
+  std::vector<BusTrip> bus_trips_;                                ///< of each vehicle
   scene::StreetTraffic* streets_ = nullptr;
 };
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/parallel.h"
 #include "life/traffic/signal_masts.h"
+#include "scene/data/object_animation.h"
 
 namespace parvis::traffic {
 
@@ -25,30 +27,61 @@ Traffic::Traffic(const scene::Scene& scene, std::span<const scene::StreetCrossin
   const scene::DrivingArea& area = scene.data<scene::DrivingArea>();
   std::vector<VehicleShape> shapes = shapes_of(demand);
   const bool has_models = !shapes.empty();
+  constexpr int max_riders = 12;  // others share their bodies
+  const int riders = std::min(demand.bicycles, max_riders);
+  std::vector<VehicleShape> bicycles(std::size_t(std::max(riders, 0)));
+  parallel_for(bicycles.size(), [&](std::size_t i) { bicycles[i] = bicycle_shape(demand.seed * 131u + i); });
+  for (VehicleShape& bicycle : bicycles) shapes.push_back(std::move(bicycle));
   simulation_ =
       std::make_unique<Simulation>(scene.roads, std::move(shapes), Area{area.centre, area.radius_m});
   std::vector<SignalJunction> junctions;
-  for (const SignalDemand& lights : scene.items<SignalDemand>())
-    if (Result<SignalJunction> junction = signals_at(scene.roads, crossings, lights)) {
-      junctions.push_back(*std::move(junction));
-      junction_visible_.push_back(lights.is_visible);
-    }
+  for (const SignalDemand& lights : scene.items<SignalDemand>()) {
+    Result<SignalJunction> junction = signals_at(scene.roads, crossings, lights);
+    if (!junction || std::ranges::count(junctions, junction->junction, &SignalJunction::junction) > 0)
+      continue;
+    junctions.push_back(*std::move(junction));
+    junction_visible_.push_back(lights.is_visible);
+  }
   simulation_->set_signals(Signals(std::move(junctions), scene.roads, crossings.size()));
-  if (demand.vehicles <= 0) return;
+  const std::size_t motors = has_models ? std::size_t(std::max(demand.vehicles, 0)) : 0;
+  if (demand.vehicles <= 0 && bicycles.empty()) return;
+  if (demand.vehicles > 0 && !has_models && !scene.roads.empty())
+    warnings_.push_back("traffic: no vehicle has a model, so none drives; name at least one model");
   if (scene.roads.empty()) {
     warnings_.push_back("traffic: the scene has no roads, so no vehicle drives; add road(path=...) nodes");
-  } else if (!has_models) {
-    warnings_.push_back("traffic: no vehicle has a model, so none drives; name at least one model");
-  } else {
-    const std::size_t wanted = std::size_t(demand.vehicles);
-    const std::size_t found = simulation_->spread_vehicles(wanted, demand.seed);
+  } else if (motors + bicycles.size() > 0) {
+    const std::size_t wanted = motors + std::size_t(std::max(demand.bicycles, 0));
+    const std::size_t found =
+        simulation_->spread_vehicles(motors, demand.seed, std::size_t(std::max(demand.bicycles, 0)));
     if (found < wanted)
       warnings_.push_back(fmt::format(
           "traffic: room for {} of {} vehicles; more, longer or wider roads that lead on, smaller "
           "vehicles, or a larger radius give more",
           found, wanted));
   }
+  add_bus_stops(scene);
   for (int i = 0; i < warm_up_steps; ++i) simulation_->step();
+}
+
+void Traffic::add_bus_stops(const scene::Scene& scene) {
+  const VehicleShape* longest = nullptr;
+  for (const Vehicle& vehicle : simulation_->vehicles())
+    if (is_bus(*vehicle.shape) && (!longest || vehicle.length_m() > longest->length_m()))
+      longest = vehicle.shape;
+  const std::vector<BusStopDemand>& demands = scene.items<BusStopDemand>();
+  if (!longest || demands.empty()) return;
+  std::vector<BusStop> stops;
+  for (const BusStopDemand& demand : demands)
+    if (const std::optional<BusStop> stop = bus_stop_at(simulation_->lanes(), demand, longest->length_m())) {
+      stops.push_back(*stop);
+      stops_->push_back(transit_stop(*stop, *longest));
+    } else {
+      warnings_.push_back(
+          fmt::format("busStop: no bus can halt at {:.1f} {:.1f}: a lane must lead past it, at its "
+                      "left, with {:.0f} m of street before it",
+                      demand.position.x, demand.position.y, longest->length_m() + 1.0f));
+    }
+  simulation_->set_bus_stops(std::move(stops), stops_);
 }
 
 void Traffic::add_vehicles(scene::Scene& scene) {
@@ -60,6 +93,7 @@ void Traffic::add_vehicles(scene::Scene& scene) {
     object.pose = vehicle.shape->rest_pose;
     object.is_dynamic = true;
     object.takes_reflection = true;
+    if (vehicle.shape->rider) scene::play(object, {}), object.pose = vehicle.shape->rest_pose;
     scene.objects.push_back(std::move(object));
   }
   place(scene, 0.0);
@@ -114,6 +148,8 @@ void Traffic::place(scene::Scene& scene, double ahead_s) const {
         vehicle.shape->world_from_model(vehicle.rear_axle(back_m, lanes), vehicle.front_axle(back_m, lanes));
     vehicle.shape->set_pose(vehicle.travelled_m - double(back_m), vehicle.steering(back_m, lanes),
                             object.pose);
+    if (vehicle.shape->rider)
+      vehicle.shape->rider->ride(vehicle.travelled_m - double(back_m), object.pose, object.deformed_meshes);
   }
 }
 

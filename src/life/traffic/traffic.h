@@ -35,6 +35,8 @@ class Traffic {
   /// last step but one: interpolated between the last two steps.
   void place(scene::Scene& scene, double ahead_s) const;
 
+  /// Bus stops at which buses halt, as people see them; empty where there are none.
+  const std::shared_ptr<std::vector<scene::TransitStop>>& stops() const { return stops_; }
   /// Parts of the demand that could not be met: no roads, no models, more vehicles than room.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -54,8 +56,11 @@ class Traffic {
     int crossing = 0;  ///< one of those whose lights they are
   };
   bool is_lit(const Lamps& lamps) const;
+  void add_bus_stops(const scene::Scene& scene);
 
   std::unique_ptr<Simulation> simulation_;
+  std::shared_ptr<std::vector<scene::TransitStop>> stops_ =
+      std::make_shared<std::vector<scene::TransitStop>>();
   std::vector<Lamps> lamps_;
   std::vector<bool> junction_visible_;  ///< of each junction with lights
   std::vector<std::string> warnings_;

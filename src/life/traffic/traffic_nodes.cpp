@@ -1,10 +1,14 @@
+#include "base/known_names.h"
 #include "base/registries.h"
 #include "formats/meshes/model_assembly.h"
 #include "formats/meshes/model_node.h"
+#include "land/roads/places_on_map.h"
+#include "life/traffic/bus_stops.h"
 #include "life/traffic/demand.h"
 #include "life/traffic/signal_masts.h"
 #include "life/traffic/traffic_process.h"
 #include "room_list.h"
+#include "scene/data/object_names.h"
 #include "scene/script/attribute.h"
 #include "scene/script/placement.h"
 #include "scene/script/scene_builder.h"
@@ -18,7 +22,8 @@ using scene::Node, scene::SceneBuilder;
 
 std::vector<std::string> vehicle_names(const Node& node) {
   std::vector<std::string> names;
-  for (long i = 1; i <= node.integer("vehicles"); ++i) names.push_back(vehicle_name(std::size_t(i - 1)));
+  for (long i = 1; i <= node.integer("vehicles") + node.integer("bicycles"); ++i)
+    names.push_back(vehicle_name(std::size_t(i - 1)));
   return names;
 }
 
@@ -33,6 +38,11 @@ scene::NodeSchema traffic_schema() {
           "called \"vehicle 1\", \"vehicle 2\", ...: cameras can follow them.",
       .attributes = {text("name", "by which other nodes refer to it; %traffic does, too"),
                      integer("vehicles", "how many").between(0, 10'000).required(),
+                     integer("bicycles",
+                             "how many people ride bicycles, which need no model; they are called as "
+                             "vehicles are, behind these")
+                         .between(0, 1000)
+                         .by_default("0"),
                      integer("seed", "the same seed gives the same traffic").from(0).by_default("1"),
                      vec3("centre", "of the part of the town that they keep to").in("m").by_default("0 0 0"),
                      number("radius",
@@ -66,6 +76,7 @@ std::shared_ptr<const scene::Model> vehicle_model(const Node& kind, SceneBuilder
 void build_traffic(const Node& node, SceneBuilder& builder, const formats::Readers& readers) {
   TrafficDemand demand;
   demand.vehicles = int(node.integer("vehicles"));
+  demand.bicycles = int(node.integer("bicycles"));
   demand.seed = std::uint64_t(node.integer("seed"));
   demand.is_visible = builder.is_visible() && node.flag("visible");
   for (const Node& kind : node.children)
@@ -81,7 +92,10 @@ scene::NodeSchema lights_schema() {
               "together, people cross the others meanwhile, and trams are let through. Masts stand at the "
               "stop lines and beside the crossings.",
           .attributes = {text("name", "of the lights"),
-                         vec3("position", "in the middle of the junction, within 30 m").in("m").required(),
+                         vec3("position", "in the middle of the junction, within 30 m").in("m"),
+                         text("of",
+                              "in place of position, the name of a model: lights at all junctions at which "
+                              "its map (OpenStreetMap) has some. Stands after the model"),
                          number("green_s", "of each phase, at least: longer where people need it to cross")
                              .in("s")
                              .between(5, 180)
@@ -103,14 +117,49 @@ scene::NodeSchema lights_schema() {
           .is_laid_out_once = true};
 }
 
+/// Places of things of the map of the model that `of` names; nothing, with the message, where there are none.
+std::vector<glm::vec3> places_on_map_of(const Node& node, std::string_view thing, SceneBuilder& builder) {
+  const std::string name = node.text("of");
+  const auto object = std::ranges::find(builder.scene.objects, name, &scene::Object::name);
+  if (object == builder.scene.objects.end()) {
+    builder.fail(error_at(node.where_of("of"), "no model called \"{}\" stands before this node{}", name,
+                          names_that_exist(name, scene::object_names(builder.scene))));
+    return {};
+  }
+  std::vector<glm::vec3> places = scene::places_on_map(*object, thing);
+  if (places.empty())
+    builder.warn(error_at(node.where_of("of"),
+                          "{}: the file of \"{}\" has no {} on its streets; position= sets one up",
+                          node.schema->type, name, thing));
+  return places;
+}
+
+/// True, with the message, where not exactly one of position and of is given.
+bool is_nowhere(const Node& node, SceneBuilder& builder) {
+  if (node.gives("position") != node.gives("of")) return false;
+  builder.fail(error_at(node.where,
+                        "{} needs either position=, or of=, the name of a model whose map has some",
+                        node.schema->type));
+  return true;
+}
+
 void build_lights(const Node& node, SceneBuilder& builder) {
   SignalDemand demand;
   demand.called = node.gives("name") ? node.text("name") : "traffic lights";
-  demand.position = glm::vec3(builder.world_from_parent() * glm::vec4(node.vec3("position"), 1.0f));
   demand.green_s = float(node.number("green_s")), demand.offset_s = float(node.number("offset_s"));
   demand.beside_m = float(node.number("beside"));
   demand.is_visible = builder.is_visible() && node.flag("visible");
-  demand.where = node.where_of("position");
+  if (is_nowhere(node, builder)) return;
+  demand.where = node.where_of(node.gives("of") ? "of" : "position");
+  if (node.gives("of")) {
+    demand.is_of_map = true;
+    for (const glm::vec3 place : places_on_map_of(node, scene::map_signal_node, builder)) {
+      demand.position = place;
+      builder.add(SignalDemand(demand));
+    }
+    return;
+  }
+  demand.position = glm::vec3(builder.world_from_parent() * glm::vec4(node.vec3("position"), 1.0f));
   builder.add(std::move(demand));
 }
 
@@ -123,11 +172,13 @@ void finish_lights(SceneBuilder& builder) {
   for (std::size_t i = 0; i < demands.items.size(); ++i) {
     const SignalDemand& demand = demands.items[i];
     const Result<SignalJunction> junction = signals_at(builder.scene.roads, crossings, demand);
+    if (!junction && demand.is_of_map) continue;  // beside a way of its own, say
     if (!junction) {
       builder.fail(junction.errors(), demand.where);
       continue;
     }
     if (std::ranges::count(lit, junction->junction) > 0) {
+      if (demand.is_of_map) continue;  // maps have one for each approach
       builder.fail(error_at(demand.where,
                             "trafficLights: the nearest junction, at {:.1f} {:.1f}, has lights "
                             "already; leave out one of both",
@@ -139,6 +190,65 @@ void finish_lights(SceneBuilder& builder) {
     masts.name = demand.called + " masts";
     masts.model = signal_masts(*junction), masts.is_visible = demand.is_visible;
     builder.add_for(demands.makers[i], {std::move(masts)});
+  }
+}
+
+scene::NodeSchema bus_stop_schema() {
+  return {
+      .type = "busStop",
+      .help =
+          "A bus stop beside a street: buses of the traffic (vehicles whose models are called so, or longer "
+          "than 8 m) halt at it, and people of a crowd wait, board and alight.",
+      .attributes = {vec3("position",
+                          "of its pole on the pavement, beside the lane, where the front of a bus halts")
+                         .in("m"),
+                     text("of",
+                          "in place of position, the name of a model: all stops on streets that its map "
+                          "(OpenStreetMap) has. Stands after the model"),
+                     number("dwell_s", "how long doors are open, at least: longer while people board")
+                         .in("s")
+                         .between(3, 120)
+                         .by_default("12"),
+                     scene::visible_attribute()},
+      .example = "road(path=\"-80 0, 80 0\")\nbusStop(position=\"10 -4.5 0\")",
+      .is_laid_out_once = true};
+}
+
+void build_bus_stop(const Node& node, SceneBuilder& builder) {
+  if (is_nowhere(node, builder)) return;
+  BusStopDemand demand;
+  demand.dwell_s = float(node.number("dwell_s"));
+  demand.is_visible = builder.is_visible() && node.flag("visible");
+  demand.where = node.where_of(node.gives("of") ? "of" : "position");
+  demand.is_of_map = node.gives("of");
+  if (node.gives("position"))
+    demand.position = glm::vec3(builder.world_from_parent() * glm::vec4(node.vec3("position"), 1.0f));
+  for (const glm::vec3 place : demand.is_of_map ? places_on_map_of(node, scene::map_bus_stop_node, builder)
+                                                : std::vector<glm::vec3>{demand.position}) {
+    demand.position = place;
+    builder.add(BusStopDemand(demand));
+  }
+}
+
+/// Sets up the poles once the lanes are there.
+void finish_bus_stops(SceneBuilder& builder) {
+  const scene::ItemsOf<BusStopDemand> demands = builder.scene.data<scene::ItemsOf<BusStopDemand>>();
+  if (demands.items.empty() || !builder.errors().empty()) return;
+  for (std::size_t i = 0; i < demands.items.size(); ++i) {
+    const BusStopDemand& demand = demands.items[i];
+    const std::optional<glm::vec2> kerbward = kerbward_of(builder.scene.roads, demand.position);
+    if (!kerbward && demand.is_of_map) continue;
+    if (!kerbward) {
+      builder.fail(error_at(demand.where,
+                            "busStop: no lane leads past {:.1f} {:.1f} at its left within 8 m; place it "
+                            "on the pavement at the right side of a street",
+                            demand.position.x, demand.position.y));
+      continue;
+    }
+    scene::Object pole;
+    pole.name = "bus stop", pole.is_visible = demand.is_visible;
+    pole.model = bus_stop_pole(demand.position, *kerbward);
+    builder.add_for(demands.makers[i], {std::move(pole)});
   }
 }
 
@@ -154,6 +264,8 @@ void register_room(Registries& registries) {
   registries.get<action::Processes>().add([] { return std::make_unique<TrafficProcess>(); });
   registry.add(lights_schema(), build_lights);
   registry.add_finish_step(finish_lights);
+  registry.add(bus_stop_schema(), build_bus_stop);
+  registry.add_finish_step(finish_bus_stops);
   registry.allow("model", "traffic");
   registry.allow(scene::include_type, "traffic");
 }

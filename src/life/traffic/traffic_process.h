@@ -27,6 +27,7 @@ class TrafficProcess final : public action::Process {
     streets_->people.assign(streets_->crossings.size(), 0);
     traffic_->share(*streets_);
     scene.data<scene::SharedStreets>().now = streets_;
+    scene.data<scene::SharedStops>().now = traffic_->stops()->empty() ? nullptr : traffic_->stops();
   }
   void step(const scene::Scene&) override { traffic_->step(); }
   void present(scene::Scene& scene, double ahead_s) override { traffic_->place(scene, ahead_s); }

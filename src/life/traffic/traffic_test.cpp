@@ -322,5 +322,39 @@ TEST(Traffic, StopsBeforeCrossingsThatPeopleWalkOver) {
   }
 }
 
+TEST(Traffic, BicyclesRideAtTheirOwnSpeedAndTheirCranksTurn) {
+  scene::Scene scene;
+  scene.roads = *scene::build_road_graph(grid(2, 90.0f));
+  TrafficDemand demand;
+  demand.bicycles = 3;
+  scene.data<TrafficDemand>() = demand;
+  Traffic traffic(scene);
+  EXPECT_TRUE(traffic.warnings().empty()) << "they need no model";
+  ASSERT_EQ(traffic.vehicle_count(), 3u);
+  traffic.add_vehicles(scene);
+  const scene::Object& first = scene.objects.front();
+  ASSERT_EQ(first.deformed_meshes.size(), first.model->parts.size());
+  const auto foot = [&] {  // the lowest point of what deforms
+    float lowest = 1e9f;
+    for (std::size_t p = 0; p < first.model->parts.size(); ++p)
+      if (first.model->parts[p].deformation)
+        for (const glm::vec3 v : first.deformed_meshes[p].positions) lowest = std::min(lowest, v.z);
+    return lowest;
+  };
+  float least = 1e9f, most = 0.0f;
+  for (int s = 0; s < 60 * 60; ++s) {
+    traffic.step(), traffic.place(scene, 0.0);
+    if (s % 7 == 0) least = std::min(least, foot()), most = std::max(most, foot());
+  }
+  EXPECT_GT(least, 0.02f) << "feet stay clear of the road";
+  EXPECT_LT(least, 0.16f);
+  EXPECT_GT(most - least, 0.08f) << "pedals go round";
+  for (const Vehicle& vehicle : traffic.simulation().vehicles()) {
+    EXPECT_LT(vehicle.speed, 6.3f);
+    EXPECT_GT(vehicle.travelled_m, 150.0);
+    EXPECT_LT(vehicle.length_m(), 2.0f);
+  }
+}
+
 }  // namespace
 }  // namespace parvis::traffic

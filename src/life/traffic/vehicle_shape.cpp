@@ -118,4 +118,17 @@ void VehicleShape::set_pose(double travelled_m, float steering, std::vector<glm:
   }
 }
 
+VehicleShape bicycle_shape(std::uint64_t number) {
+  constexpr float length_m = 1.78f, half_width_m = 0.33f;
+  constexpr float slowest_m_s = 4.2f, fastest_m_s = 6.1f;  // 15 to 22 km/h: by number
+  const auto rider = std::make_shared<const people::Cyclist>(number);
+  VehicleShape shape = vehicle_shape(rider->model());
+  // The mesh at rest stands with its arms spread.
+  shape.front_m = 0.5f * length_m, shape.rear_m = -0.5f * length_m;
+  shape.half_width_m = half_width_m, shape.middle_y_m = 0.0f, shape.ground_z_m = 0.0f;
+  shape.max_speed_m_s = std::lerp(slowest_m_s, fastest_m_s, float(number % 8) / 7.0f);
+  shape.rider = rider;
+  return shape;
+}
+
 }  // namespace parvis::traffic

@@ -1,9 +1,11 @@
 // Properties of a vehicle's model that driving needs: length, axles, wheels.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
+#include "life/people/cyclist.h"
 #include "life/traffic/footprint.h"
 #include "scene/data/scene.h"
 
@@ -27,6 +29,8 @@ struct VehicleShape {
   float half_width_m = 0.9f;
   float middle_y_m = 0.0f;
   float ground_z_m = 0.0f;  ///< lowest point of the model
+  float max_speed_m_s = std::numeric_limits<float>::max();
+  std::shared_ptr<const people::Cyclist> rider;  ///< of a bicycle; null: what has a motor
 
   /// Length over the bumpers, metres.
   float length_m() const { return front_m - rear_m; }
@@ -48,5 +52,7 @@ struct VehicleShape {
 /// Derives the shape from a model. Wheels are nodes whose names contain "wheel" (any case) and whose parents'
 /// names do not; a model without wheels gets axles at 30 % of its length from the middle.
 VehicleShape vehicle_shape(std::shared_ptr<const scene::Model> model);
+/// A bicycle and its rider, by a number.
+VehicleShape bicycle_shape(std::uint64_t number);
 
 }  // namespace parvis::traffic

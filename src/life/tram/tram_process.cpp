@@ -53,6 +53,7 @@ std::string TramProcess::status() const {
 void TramProcess::begin(scene::Scene& scene, action::SharedByProcesses&) {
   const std::vector<TramLine> lines = std::as_const(scene).items<TramLine>();
   streets_ = std::as_const(scene).data<scene::SharedStreets>().now;
+  if (const auto& of_buses = std::as_const(scene).data<scene::SharedStops>().now) stops_ = of_buses;
   for (const TramLine& line : lines) {
     std::map<SectionKind, std::shared_ptr<const scene::Model>> models;
     for (const SectionKind kind : kind_of_section)
@@ -124,7 +125,8 @@ void TramProcess::wait_for_people() {
 
 void TramProcess::share_stops() {
   const double time_s = double(steps_) * action::step_s;
-  for (scene::TransitStop& stop : *stops_) stop.is_open = false;
+  for (const Running& it : lines_)
+    for (std::size_t s = 0; s < it.line.edges.size(); ++s) (*stops_)[it.first_stop + s].is_open = false;
   for (const Running& it : lines_)
     for (int tram = 0; tram < it.line.trams(); ++tram) {
       const double run_s = it.line.run_s(tram, time_s, it.late_s[std::size_t(tram)]);

@@ -9,6 +9,7 @@
 #include "base/bounds.h"
 #include "base/files.h"
 #include "land/heights/city_surfaces.h"
+#include "land/roads/places_on_map.h"
 #include "land/roads/road_from_polygons.h"
 #include "places/dressing/clock_of_place.h"
 #include "places/dressing/street_view.h"
@@ -255,9 +256,14 @@ std::string bare_scene(const Model& model, const std::string& file,
   if (const std::string dressing = is_town ? dressing_of(model, is_alone) : std::string(); !dressing.empty())
     script += fmt::format(" {{\n{}}}", dressing);
   script += '\n';
-  if (!surfaces.empty())
+  if (!surfaces.empty()) {
     script += "streets(of=\"place\")\n";
-  else if (is_town && !is_land)
+    const auto has = [&](std::string_view thing) {
+      return !scene::places_on_map(scene.objects.front(), thing).empty();
+    };
+    if (has(scene::map_signal_node)) script += "trafficLights(of=\"place\")\n";
+    if (has(scene::map_bus_stop_node)) script += "busStop(of=\"place\")\n";
+  } else if (is_town && !is_land)
     script +=
         "// The file has no roads: road(path=\"x y, x y\") adds streets, which traffic, lamps and parked "
         "cars need.\n";

@@ -247,6 +247,8 @@ TEST(BareFile, LoadsWithoutAWarningAndHasGroundToTheHorizon) {
   EXPECT_LT(fixed.size().x, 1500.0f) << "what is fitted to the place ends with the place";
   ASSERT_EQ(scene.cameras.size(), 2u);
   EXPECT_FALSE(scene.roads.empty());
+  EXPECT_NE(script->find("trafficLights(of=\"place\")"), std::string::npos) << "the map has some";
+  EXPECT_EQ(std::ranges::count(scene.objects, std::string("traffic lights masts"), &scene::Object::name), 1);
 }
 
 /// The map of crossroads as the model "town", followed by more of a script.
