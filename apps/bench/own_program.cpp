@@ -56,6 +56,8 @@ int acknowledged_before_kill(int wanted, const std::function<void(const std::fun
   int acknowledged = 0;
   char byte = 0;
   while (acknowledged < wanted && read(pipes[0], &byte, 1) == 1) ++acknowledged;
+  constexpr unsigned longest_us = 5000, step = 7919;  // so that every moment of a command is met
+  usleep(unsigned(wanted) * step % longest_us);
   kill(child, SIGKILL);
   while (read(pipes[0], &byte, 1) == 1) ++acknowledged;
   close(pipes[0]);

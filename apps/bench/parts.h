@@ -18,10 +18,10 @@ Measured measure_maps_memory, measure_placement, measure_maps_cost, measure_maps
 Measured measure_explosion_maps, measure_search, measure_roots, measure_edges, measure_cost, measure_grids,
     measure_kitchen, measure_bonnet, measure_two_bounces, measure_refraction;  // curved/
 Measured measure_sky, measure_sky_update, measure_relighting, measure_lit_object, measure_bounced_light,
-    measure_night, measure_sun_hours, measure_shadows, measure_shadow_times;  // light/
-Measured measure_plan, measure_sketch, measure_plan_files;                    // plan.cpp
-Measured measure_plan_drawings;                                               // plan_drawings.cpp
-Measured measure_clicked_cameras;                                             // clicked_cameras.cpp
+    measure_night, measure_sun_hours, measure_shadows, measure_shadow_times;        // light/
+Measured measure_plan, measure_plan_precision, measure_sketch, measure_plan_files;  // plan.cpp
+Measured measure_plan_drawings;                                                     // plan_drawings.cpp
+Measured measure_clicked_cameras;                                                   // clicked_cameras.cpp
 Measured measure_study_replay, measure_study_kills, measure_study_cases, measure_study_xdf;  // study.cpp
 Measured measure_off_axis, measure_blending, measure_walls_cost, measure_walls_lock,
     measure_wand;                                                                        // display.cpp

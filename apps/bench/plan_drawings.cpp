@@ -1,4 +1,6 @@
 // Drawings: what other programs read of ours, and we of given ones.
+#include <sys/wait.h>
+
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -12,22 +14,28 @@
 namespace parvis::bench {
 namespace {
 
-/// The largest error of the readers that script/dxf_readers_agree finds; nothing where there are none.
+/// The largest error of the readers that script/dxf_readers_agree finds, two at least; nothing where there
+/// are fewer. Fails where one of them cannot read the file.
 std::optional<double> readers_error_mm(const std::filesystem::path& dxf,
                                        const std::filesystem::path& points) {
-  const std::string command =
-      fmt::format("'{}' '{}' '{}' 2> /dev/null",
-                  (std::filesystem::current_path() / "script" / "dxf_readers_agree").string(), dxf.string(),
-                  points.string());
+  const std::string command = fmt::format(
+      "'{}' '{}' '{}' 2>&1", (std::filesystem::current_path() / "script" / "dxf_readers_agree").string(),
+      dxf.string(), points.string());
   std::FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) return std::nullopt;
   double error_mm = 0.0;
-  bool is_found = false;
+  int readers = 0;
+  std::string output;
   std::array<char, 512> line{};
-  while (std::fgets(line.data(), int(line.size()), pipe))
-    is_found |= std::sscanf(line.data(), "dxf_readers_agree_mm %lf", &error_mm) == 1;
-  pclose(pipe);
-  return is_found ? std::optional(error_mm) : std::nullopt;
+  while (std::fgets(line.data(), int(line.size()), pipe)) {
+    output += line.data();
+    std::sscanf(line.data(), "dxf_readers_agree_mm %lf of %d readers", &error_mm, &readers);
+  }
+  constexpr int none = 77;  // the script's status where no reader is installed
+  const int status = pclose(pipe);
+  if (readers == 0 && (!WIFEXITED(status) || WEXITSTATUS(status) != none))
+    fail("a reader cannot read the drawing: {}", output);
+  return readers > 1 ? std::optional(error_mm) : std::nullopt;
 }
 
 void measure_export(const BenchSetup& setup, Report& report) {
@@ -55,7 +63,7 @@ void measure_export(const BenchSetup& setup, Report& report) {
                             points[i].y, points[i].z);
       must(write_file(listed, text));
       const std::optional<double> error_mm = readers_error_mm(dxf, listed);
-      if (!error_mm) return report.skip("dxf_readers_agree_mm", "no other reader of DXF is here");
+      if (!error_mm) return report.skip("dxf_readers_agree_mm", "no two readers of DXF are here");
       (is_aside ? largest_aside_mm : largest_mm) =
           std::max(is_aside ? largest_aside_mm : largest_mm, *error_mm);
     }

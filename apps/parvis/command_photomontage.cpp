@@ -280,6 +280,9 @@ void add_photomontage(CLI::App& app, Chosen& chosen) {
       ->add_option("--brightness", arguments->brightness,
                    "Of the photograph over the scene's (default: by what both show)")
       ->check(CLI::Range(1e-9, 1e9));
+  command->add_option(
+      "--grey", arguments->grey,
+      "A pixel X,Y from the top left that shows something grey or white, for the colour of the light");
   command->add_flag("--no-caption", arguments->is_without_caption,
                     "No strip below that says what was changed");
   command->add_option("--report", arguments->report, "Also write camera, brightness and areas as JSON");

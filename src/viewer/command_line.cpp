@@ -128,8 +128,9 @@ float CommandLine::draw(float picture_width, float foot, Places& places) {
   const bool closes = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
   const float height = ImGui::GetWindowSize().y + gap * imgui_.scale();
   ImGui::End();
-  wants_keys_ = is_entered;  // ImGui leaves the line with Enter
-  if (is_entered && !text_.empty() && run(text_)) {
+  planning_.awaits_command_keys = opens;  // the line has them from the next frame on
+  wants_keys_ = is_entered;               // ImGui leaves the line with Enter
+  if (is_entered && !text_.empty() && !forms.empty() && run(text_)) {
     run_.push_back(std::exchange(text_, {}));
     recalled_ = run_.size();
   }

@@ -112,8 +112,10 @@ bool Input::tell_scene(const std::string& key, int action) {
 
 void Input::on_key(int place, int scancode, int action, int modifiers) {
   if (action == GLFW_PRESS && place >= 0) tapped_.push_back(place);
-  if (ImGui::GetIO().WantTextInput && action == GLFW_PRESS) return;
   const int key = by_label(place, scancode, modifiers);
+  const bool saves = key == GLFW_KEY_S && (modifiers & GLFW_MOD_CONTROL) != 0;
+  if ((ImGui::GetIO().WantTextInput || planning_.awaits_command_keys) && action == GLFW_PRESS && !saves)
+    return;
   if (const auto moves = std::ranges::find(movement, key); moves != movement.end() && action == GLFW_PRESS)
     was_pressed_[std::size_t(moves - movement.begin())] = true;
   if (tell_scene(key_name(key), action) || action == GLFW_RELEASE) return;
@@ -184,7 +186,7 @@ bool Input::press_with_control(int key, bool has_shift) {
     case GLFW_KEY_L:
       return planning_.run("lock selected");
     case GLFW_KEY_K:
-      planning_.shows_commands = true;
+      planning_.shows_commands = planning_.awaits_command_keys = true;
       return true;
     default:
       break;
@@ -316,11 +318,20 @@ bool press_visit_key(Visit& visit, int key) {
   }
 }
 
+/// While one plans, Esc ends what is under way: a second one within a few seconds closes the window.
+void Input::close_when_asked_twice() {
+  constexpr double twice_s = 4.0;
+  const double now = glfwGetTime();
+  if (planning_.is_on() && now - std::exchange(asked_to_close_s_, now) > twice_s)
+    return visit_.notice("Esc once more closes the window; what was done is kept");
+  glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
 void Input::press(int key) {
   if (press_visit_key(visit_, key)) return;
   switch (key) {
     case GLFW_KEY_ESCAPE:
-      if (!std::exchange(panel_.shows_keys, false)) glfwSetWindowShouldClose(window_, GLFW_TRUE);
+      if (!std::exchange(panel_.shows_keys, false)) close_when_asked_twice();
       break;
     case GLFW_KEY_F1:
       panel_.shows_keys = !panel_.shows_keys;

@@ -42,6 +42,7 @@ class Input {
   void choose_what_is_below_the_cursor();
   void poll_controller();
   void poll_events();
+  void close_when_asked_twice();
   bool press_planning(int key, int modifiers);
   bool press_with_control(int key, bool has_shift);
   std::optional<planner::Pointer> pointer() const;
@@ -62,6 +63,7 @@ class Input {
   bool is_dragging_ = false, is_panning_ = false, is_sliding_ = false;
   bool has_moved_ = false;                    ///< the cursor, since the last poll
   glm::dvec2 cursor_{0.0}, pressed_at_{0.0};  ///< in the window's units
+  double asked_to_close_s_ = -1e9;            ///< when Esc asked for it last, by GLFW's clock
   std::array<unsigned char, 15> controller_buttons_{};
 };
 

@@ -28,8 +28,9 @@ class Planning {
   bool is_on() const { return is_on_; }
   /// Takes it up or puts it away. Taking it up opens the scene's first design, with its journal.
   void turn_on(bool on);
-  bool shows_catalogue = false;  ///< along the lower edge
-  bool shows_commands = false;   ///< the line in which commands are written
+  bool shows_catalogue = false;      ///< along the lower edge
+  bool shows_commands = false;       ///< the line in which commands are written
+  bool awaits_command_keys = false;  ///< it was opened, and is not drawn yet: keys are meant for it
   /// The session that a participant works in, which logs what is done: no files are written then. Null: there
   /// is none.
   study::Session* study = nullptr;

@@ -29,6 +29,8 @@ class Draft {
   /// The objects of these names or patterns, as they are; each once. Locked ones are an error where
   /// `to_change`.
   std::vector<Node> objects(const Names& names, bool to_change = true);
+  /// The same; a name may be that of a group.
+  std::vector<Node> members(const Names& names);
   Node fresh(const char* type) const;
   /// The node of the design by this name; null: there is none.
   const Node* child(const std::string& name) const {
@@ -111,6 +113,18 @@ std::vector<Node> Draft::objects(const Names& names, bool to_change) {
   return found;
 }
 
+std::vector<Node> Draft::members(const Names& names) {
+  Names all;
+  for (const std::string& wanted : names) {
+    const std::size_t before = all.size();
+    if (view_.design)
+      for (const Node& node : view_.design->children)
+        if (is_placed(node) && node.text("group") == wanted) all.push_back(name_of(node));
+    if (all.size() == before) all.push_back(wanted);
+  }
+  return objects(all);
+}
+
 Node Draft::fresh(const char* type) const {
   Node node;
   node.schema = &view_.live.registry().find(type)->schema;
@@ -127,6 +141,8 @@ std::string Draft::free_name(const std::string& stem) {
 void Draft::check_name(const std::string& name) {
   if (name.find_first_of(" \t\r\n,*?\"") != std::string::npos || name.empty())
     return fail(error("\"{}\" is no name: names have no blanks, commas, quotes, * or ?", name.substr(0, 40)));
+  if (name == "selected" || name == "all" || name == "none")
+    return fail(error("\"{}\" is a word of commands and no name for an object", name));
   if (view_.live.find(name) || !taken_.insert(name).second)
     fail(error("the name \"{}\" is taken; names are unique in a scene", name.substr(0, 40)));
 }
@@ -246,7 +262,7 @@ void paint_one(Draft& draft, Node& node, const std::string& colour, const std::s
   }
   if (!material.empty()) {
     if (kind && !kind->may_change(Changeable::material))
-      draft.fail(error("the material of a {} is fixed", kind->name));
+      draft.fail(error("the material of a {} is fixed; another kind (swap) may have another", kind->name));
     else
       draft.give_text(node, "material", material);
   }
@@ -278,6 +294,8 @@ struct Maker {
     Node node = draft.fresh(surface_type);
     if (c.outline.size() < 3)
       return draft.fail(error("a surface has at least three corners, not {}", c.outline.size()));
+    if (Status status = check_measurement(Quantity::area, c.outline); !status)
+      return draft.fail(status.errors().front());
     if (!c.name.empty()) draft.check_name(c.name);
     draft.give(node, "name", c.name.empty() ? draft.free_name("surface") : c.name);
     draft.give(node, "outline", placed_points(c.outline));
@@ -468,8 +486,10 @@ struct Maker {
     if (!(length <= max_reach_m))
       return draft.fail(error("a row of {:g} m is too long; check the coordinates", length));
     if (length < same_place_m) return draft.fail(error("the row begins where it ends; give two places"));
-    if ((c.count != 0) == (c.spacing_m != 0.0) || c.count < 0 || c.spacing_m < 0.0)
-      return draft.fail(error("say how many stand in the row (count N) or how far apart (spacing M)"));
+    if (c.count < 0 || c.spacing_m < 0.0 || (c.count != 0) == (c.spacing_m != 0.0))
+      return draft.fail(error(
+          "say how many stand in the row (count N, 2 or more) or how far apart (spacing M, above 0), not "
+          "both"));
     const double places = c.count > 0 ? double(c.count) : std::floor(length / c.spacing_m + 1e-9) + 1.0;
     if (places < 2.0 || places > double(max_objects))
       return draft.fail(error("a row has 2 to {} objects, not {:g}", max_objects, places));
@@ -519,7 +539,7 @@ struct Maker {
   }
 
   void operator()(const Group& c) const {
-    for (const Node& node : draft.objects(c.names)) {
+    for (const Node& node : c.group.empty() ? draft.members(c.names) : draft.objects(c.names)) {
       Node after = node;
       if (c.group.empty())
         forget(after, "group");

@@ -54,6 +54,31 @@ fs::path file_of(const Session& session) {
   return session.design() ? session.design()->where.file : std::string();
 }
 
+namespace {
+
+/// Refuses to write over a script that is neither the one in which the design stands nor one that was made of
+/// this design before.
+Status check_target(const fs::path& file, const fs::path& from, const fs::path& scene_script,
+                    const std::string& design) {
+  std::error_code code;
+  const fs::path target = fs::weakly_canonical(fs::absolute(file), code);
+  if (!fs::exists(target, code) || target == from) return Ok{};
+  if (from.empty() && target == fs::weakly_canonical(fs::absolute(scene_script), code)) return Ok{};
+  const Result<std::string> text = read_file(target);
+  if (text)
+    if (Result<scene::ScriptNode> tree = scene::parse_script_file(*text, target.string());
+        tree && !tree->children.empty() && design_in(*tree, design) &&
+        target != fs::weakly_canonical(fs::absolute(scene_script), code))
+      return Ok{};
+  return error("{}: there is a file that is not this design's, and it is left as it is; {}", file.string(),
+               from.empty()
+                   ? std::string("choose another name")
+                   : fmt::format("the design \"{}\" stands in {}: write it there, or choose another name",
+                                 design, from.string()));
+}
+
+}  // namespace
+
 Status save(const Session& session, const fs::path& scene_script, const fs::path& file) {
   const scene::Node* node = session.design();
   if (!node) return error("the design has no objects yet; there is nothing to write");
@@ -64,6 +89,9 @@ Status save(const Session& session, const fs::path& scene_script, const fs::path
         "{}: a design lies in the folder of its scene, for files are named relative to it; write it to {}",
         file.string(), (folder / file.filename()).string());
   const fs::path from = file_of(session);
+  if (Status status = check_target(file, from, scene_script, session.name()); !status) return status;
+  const bool is_scene = fs::weakly_canonical(fs::absolute(file), code) ==
+                        fs::weakly_canonical(fs::absolute(scene_script), code);
   scene::ScriptNode tree;
   if (!from.empty()) {
     const Result<std::string> text = read_file(from);
@@ -80,6 +108,13 @@ Status save(const Session& session, const fs::path& scene_script, const fs::path
     if (fs::weakly_canonical(file, code) != from && from != fs::weakly_canonical(scene_script, code))
       tree.comments_before.insert(tree.comments_before.begin(),
                                   "// A design of " + scene_script.filename().string());
+  } else if (is_scene) {  // its first design, behind all else
+    const Result<std::string> text = read_file(file);
+    if (!text) return text.errors();
+    Result<scene::ScriptNode> read = scene::parse_script_file(*text, file.string());
+    if (!read) return read.errors();
+    tree = *std::move(read);
+    tree.children.push_back(scene::written_node(*node));
   } else {
     scene::ScriptNode include;
     include.type = scene::include_type;
@@ -145,15 +180,26 @@ Status read_json(const std::string& text, const std::string& file, Session& sess
   const auto text_in = [](const Json& entry, const char* key) {
     return entry.contains(key) && entry[key].is_string() ? entry[key].get<std::string>() : std::string();
   };
+  // Both on a map: what is told about one origin stands elsewhere about another.
+  glm::dvec3 moved(0.0);
+  const glm::dvec3 own = session.view().scene.origin;
+  if (whole.contains("origin") && own != glm::dvec3(0.0))
+    if (const std::vector<double> origin = numbers(whole["origin"], 3);
+        !origin.empty() && (origin[0] != 0.0 || origin[1] != 0.0))
+      moved = glm::dvec3(origin[0], origin[1], origin[2]) - own;
   const auto points_in = [&](const Json& entry, const char* key) -> std::optional<std::vector<glm::dvec3>> {
     std::vector<glm::dvec3> points;
     if (!entry.contains(key) || !entry[key].is_array()) return std::nullopt;
     for (const Json& each : entry[key]) {
       const std::vector<double> at = numbers(each, 3);
       if (at.empty()) return std::nullopt;
-      points.emplace_back(at[0], at[1], at[2]);
+      points.push_back(glm::dvec3(at[0], at[1], at[2]) + moved);
     }
     return points;
+  };
+  // Names are unique in a scene: where one is taken, the object gets the next free one of its kind.
+  const auto free_or_none = [&](const std::string& name) {
+    return name.empty() || session.view().live.find(name) ? std::string() : name;
   };
   std::size_t number = 0;
   for (const Json& entry : whole["objects"]) {
@@ -162,7 +208,7 @@ Status read_json(const std::string& text, const std::string& file, Session& sess
       return error("{}: object {}: {}", file, number, what);
     };
     if (!entry.is_object()) return wrong("expected an object");
-    const std::string kind = text_in(entry, "kind"), name = text_in(entry, "name");
+    const std::string kind = text_in(entry, "kind"), name = free_or_none(text_in(entry, "name"));
     Status status = Ok{};
     if (kind == "ground") {
       const auto outline = points_in(entry, "outline");
@@ -177,7 +223,7 @@ Status read_json(const std::string& text, const std::string& file, Session& sess
       const std::vector<double> at =
           entry.contains("position") ? numbers(entry["position"], 3) : std::vector<double>();
       if (at.empty()) return wrong("\"position\" is [x, y, z] in metres");
-      Insert insert{kind, {at[0], at[1], at[2]}};
+      Insert insert{kind, glm::dvec3(at[0], at[1], at[2]) + moved};
       insert.name = name;
       if (entry.contains("heading_deg") && entry["heading_deg"].is_number())
         insert.heading_deg = entry["heading_deg"].get<double>();

@@ -1,6 +1,8 @@
 #include "planning/design/journal.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,6 +21,8 @@ namespace {
 constexpr std::string_view head = "parvis design journal ";
 constexpr int version = 1;
 constexpr std::uint64_t max_journal_bytes = 256u << 20;
+constexpr const char* move_it =
+    "; it is left as it is, with the steps that it holds: move it away to begin a new one";
 constexpr std::array<const char*, 4> words{"do", "undo", "redo", "saved"};
 
 /// One line: the hash of what it says, then that; line feeds are written as "\n".
@@ -93,7 +97,7 @@ Result<JournalContent> read_journal(const std::filesystem::path& file) {
     ++number;
     const FileLocation where{file.string(), number, 1};
     if (number == 1) {
-      if (!line.starts_with(head)) return error_at(where, "this is no journal of a design");
+      if (!line.starts_with(head)) return error_at(where, "this is no journal of a design{}", move_it);
       const std::string wanted = std::string(line.substr(head.size()));
       if (std::strtol(wanted.c_str(), nullptr, 10) > version)
         return error_at(where,
@@ -103,7 +107,7 @@ Result<JournalContent> read_journal(const std::filesystem::path& file) {
     }
     const std::optional<std::string_view> said = is_whole ? said_by(line) : std::nullopt;
     if (!said) {
-      if (!rest.empty()) return error_at(where, "this line of the journal is damaged");
+      if (!rest.empty()) return error_at(where, "this line of the journal is damaged{}", move_it);
       content.is_cut = true;
       break;
     }
@@ -121,7 +125,8 @@ Result<JournalContent> read_journal(const std::filesystem::path& file) {
     else
       return error_at(where, "\"{}\" is no word of a journal", word.substr(0, 20));
   }
-  if (!has_base) return error_at({file.string(), number, 1}, "the journal ends before its first entry");
+  if (!has_base)
+    return error_at({file.string(), number, 1}, "the journal ends before its first entry{}", move_it);
   return content;
 }
 
@@ -140,21 +145,32 @@ Result<Journal> Journal::begin(const std::filesystem::path& file, const std::str
   const std::string text =
       std::string(head) + std::to_string(version) + "\n" + line_of("name", name) + line_of("base", base);
   if (Status status = write_file(file, text); !status) return status.errors();
-  return resume(file);
+  return lock(file);
 }
 
-Result<Journal> Journal::resume(const std::filesystem::path& file) {
+Result<Journal> Journal::lock(const std::filesystem::path& file) {
   Journal journal;
   journal.path_ = file;
   journal.file_ = open(file.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW);
   if (journal.file_ < 0)
     return error("{}: the journal cannot be opened: {}", file.string(), std::strerror(errno));
-  const Result<std::string> text = read_file(file, max_journal_bytes);
+  struct stat opened {
+  }, there{};
+  const bool is_ours = flock(journal.file_, LOCK_EX | LOCK_NB) == 0 && fstat(journal.file_, &opened) == 0 &&
+                       stat(file.c_str(), &there) == 0 && opened.st_ino == there.st_ino;
+  if (!is_ours)
+    return error("{}: this design is being worked on in another window or program; close it there first",
+                 file.string());
+  return journal;
+}
+
+Status Journal::drop_cut_line() {
+  const Result<std::string> text = read_file(path_, max_journal_bytes);
   if (!text) return text.errors();
   const std::size_t whole = text->rfind('\n') + 1;
-  if (whole < text->size() && ftruncate(journal.file_, off_t(whole)) != 0)
-    return error("{}: {}", file.string(), std::strerror(errno));
-  return journal;
+  if (whole < text->size() && ftruncate(file_, off_t(whole)) != 0)
+    return error("{}: {}", path_.string(), std::strerror(errno));
+  return Ok{};
 }
 
 Status Journal::append(const JournalEntry& entry) {

@@ -39,8 +39,10 @@ class Journal {
   /// Begins a new journal for a design whose script is `base`; `file` does not exist.
   static Result<Journal> begin(const std::filesystem::path& file, const std::string& name,
                                const std::string& base);
-  /// Goes on with one that has been read; a cut line is taken off.
-  static Result<Journal> resume(const std::filesystem::path& file);
+  /// Opens one to go on with it, and keeps others from writing it meanwhile; an error where another does.
+  static Result<Journal> lock(const std::filesystem::path& file);
+  /// Takes off a last line that was not written to its end.
+  Status drop_cut_line();
   Journal(Journal&& other) noexcept { *this = std::move(other); }
   Journal& operator=(Journal&& other) noexcept;
   ~Journal();

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <glm/gtx/component_wise.hpp>
 
+#include "base/files.h"
 #include "formats/gltf/gltf_writer.h"
 
 namespace parvis::design {
@@ -29,14 +30,16 @@ std::string extents(const glm::dvec3& size) {
   return fmt::format("{:.3g} x {:.3g} x {:.3g} m", size.x, size.y, size.z);
 }
 
-/// A name that neither a kind has nor a file beside the scene.
-std::string free_name(const scene::Scene& scene, const fs::path& folder, const fs::path& file) {
-  const std::string stem = name_of(file);
-  std::error_code code;
-  for (int number = 1;; ++number) {
-    std::string name = number == 1 ? stem : fmt::format("{}_{}", stem, number);
-    if (!find_kind(scene, name) && !fs::exists(folder / (name + ".glb"), code)) return name;
-  }
+/// A name that neither a kind nor an object of the scene has.
+bool is_free(const scene::Scene& scene, const std::string& name) {
+  return !find_kind(scene, name) && std::ranges::none_of(scene.objects, [&](const scene::Object& object) {
+    return object.name == name;
+  });
+}
+
+bool have_equal_bytes(const fs::path& one, const fs::path& other) {
+  const Result<std::string> a = read_file(one), b = read_file(other);
+  return a && b && *a == *b;
 }
 
 }  // namespace
@@ -68,17 +71,29 @@ Result<OwnKind> import_kind(const formats::Readers& readers, const scene::Scene&
   fs::create_directories(folder, code);
   if (code) return error("{}: the folder cannot be made: {}", folder.string(), code.message());
   OwnKind made;
-  made.command.name = free_name(scene, folder, file);
-  made.command.file = "kinds/" + made.command.name + ".glb";
   made.command.size_m = glm::round(1e4 * size) / 1e4;
   scene::Object object;
-  object.name = made.command.name;
   object.model = std::make_shared<const scene::Model>(*std::move(model));
   const glm::vec3 foot(box.centre().x, box.centre().y, box.min.z);
   object.world_from_model = glm::translate(glm::scale(glm::mat4(1.0f), glm::vec3(float(unit))), -foot);
   const scene::Object* const objects[]{&object};
-  if (Status status = scene::write_gltf(scene.file.parent_path() / made.command.file, objects, {}); !status)
-    return status.errors();
+  const fs::path trial = folder / ".new";
+  const std::string stem = name_of(file);
+  for (int number = 1; made.command.file.empty(); ++number) {
+    object.name = number == 1 ? stem : fmt::format("{}_{}", stem, number);
+    const fs::path kept = folder / (object.name + ".glb");
+    if (!is_free(scene, object.name)) continue;
+    if (fs::exists(kept, code)) {  // the same model, dropped once more, is the same file
+      fs::create_directories(trial, code);
+      const fs::path again = trial / kept.filename();
+      const bool is_same = scene::write_gltf(again, objects, {}).ok() && have_equal_bytes(again, kept);
+      fs::remove_all(trial, code);
+      if (!is_same) continue;
+    } else if (Status status = scene::write_gltf(kept, objects, {}); !status) {
+      return status.errors();
+    }
+    made.command.name = object.name, made.command.file = "kinds/" + object.name + ".glb";
+  }
   made.note = fmt::format("{}: {}{}", made.command.name, extents(made.command.size_m),
                           !is_guessed           ? ""
                           : guess == centimetre ? ", read as centimetres"

@@ -295,6 +295,8 @@ Result<std::string> Session::keep_journal(const std::filesystem::path& file) {
     journal_ = *std::move(journal);
     return std::string();
   }
+  Result<Journal> journal = Journal::lock(file);  // first: nobody else writes from here on
+  if (!journal) return journal.errors();
   const Result<JournalContent> content = read_journal(file);
   if (!content) return content.errors();
   std::set<std::string> known{hash_of(content->base)};
@@ -335,8 +337,7 @@ Result<std::string> Session::keep_journal(const std::filesystem::path& file) {
                       "line has been done",
                       status.errors().front().message);
   }
-  Result<Journal> journal = Journal::resume(file);
-  if (!journal) return journal.errors();
+  if (Status status = journal->drop_cut_line(); !status) return status.errors();
   journal_ = *std::move(journal);
   if (unsaved == 0) return std::string();
   return fmt::format("{} steps that had not been saved are there again{}", unsaved,

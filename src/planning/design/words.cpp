@@ -177,6 +177,8 @@ constexpr auto french = std::to_array<std::pair<std::string_view, std::string_vi
     {"takes a picture", "prendre une image"},
     {"mutes the sound, or lets it be heard", "couper le son, ou le rétablir"},
     {"toward a sketch, toward a photograph", "vers le croquis, vers la photo"},
+    {"Esc once more closes the window; what was done is kept",
+     "Échap encore une fois ferme la fenêtre ; ce qui est fait est gardé"},
     {"Together", "Ensemble"},
     {"Align x", "Aligner x"},
     {"Align y", "Aligner y"},
