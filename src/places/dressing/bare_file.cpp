@@ -175,8 +175,9 @@ std::string furnished_circle(const std::vector<scene::Road>& streets, glm::vec3 
   return fmt::format(", around={}, within={}", point(eye), radius_m);
 }
 
-/// Nodes of things along kerbs: generated trees where the file has none.
-std::string nodes_of_kerbs(const Model& model, const std::vector<scene::Road>& streets, glm::vec3 eye) {
+/// Nodes of things along kerbs: generated trees where the file has none. Lamps light windows of facades, too.
+std::string nodes_of_kerbs(const Model& model, const std::vector<scene::Road>& streets, glm::vec3 eye,
+                           bool has_facades) {
   if (streets.empty()) return "";
   const bool has_trees =
       std::ranges::any_of(model.parts, [&](const Part& part) {  // other than those of woods
@@ -186,10 +187,11 @@ std::string nodes_of_kerbs(const Model& model, const std::vector<scene::Road>& s
   const std::string circle = furnished_circle(streets, eye);
   return fmt::format(
              "streetFurniture(kind=\"lamps\"{})\n"
-             "lamp(of=\"street lamp *\", position=\"0 0 4.45\", flux_lm=5000)\n"
+             "{}lamp(of=\"street lamp *\", position=\"0 0 4.45\", flux_lm=5000{})\n"
              "parkedCars(share=0.4{})\n"
              "crowd(people=40, centre={}, radius=60)\n",
-             circle, circle, point(eye)) +
+             circle, has_facades ? "litWindows(of=\"place\")\n" : "",
+             has_facades ? ", shows=\"lit windows\"" : "", circle, point(eye)) +
          (has_trees ? "" : fmt::format("streetTrees(kind=\"plane\", spacing=12, clear=2.5{})\n", circle));
 }
 
@@ -253,8 +255,8 @@ std::string bare_scene(const Model& model, const std::string& file,
 
   std::string script = fmt::format("// Made up by parvis for {}; change it as you like.\n", file);
   script += fmt::format("model(name=\"place\", file={}{})", quoted(file), is_exhibit ? ", reflective=1" : "");
-  if (const std::string dressing = is_town ? dressing_of(model, is_alone) : std::string(); !dressing.empty())
-    script += fmt::format(" {{\n{}}}", dressing);
+  const std::string dressing = is_town ? dressing_of(model, is_alone) : std::string();
+  if (!dressing.empty()) script += fmt::format(" {{\n{}}}", dressing);
   script += '\n';
   if (!surfaces.empty()) {
     script += "streets(of=\"place\")\n";
@@ -271,7 +273,8 @@ std::string bare_scene(const Model& model, const std::string& file,
   const bool is_in_gardens = is_town ? !is_dense(model) : is_house;
   script += is_in_gardens ? "terrain_plane(surface=\"lawn\")\n" : "terrain_plane()\n";
   if (has_surface(model, "SolitaryVegetationObject")) script += "grownTrees(of=\"place\")\n";
-  script += nodes_of_kerbs(model, surfaces, street.eye);
+  const bool has_facades = dressing.find("facades(target=\"WallSurface\")") != std::string::npos;
+  script += nodes_of_kerbs(model, surfaces, street.eye, has_facades);
   script += "\n// A summer's afternoon.\n" + day_light(place_deg) +
             "exposure(value=1.3)\n"
             "air(haze_per_m=0.0004)\n"

@@ -1,4 +1,5 @@
 #include "base/registries.h"
+#include "places/dressing/nodes_lit_windows.h"
 #include "places/dressing/nodes_surfaces.h"
 #include "places/dressing/nodes_terrain.h"
 #include "room_list.h"
@@ -11,6 +12,7 @@ void register_room(Registries& registries) {
   scene::NodeRegistry& registry = registries.get<scene::NodeRegistry>();
   add_terrain_nodes(registry);
   add_surface_nodes(registry);
+  add_lit_windows_node(registry);
 }
 
 }  // namespace parvis::dressing
