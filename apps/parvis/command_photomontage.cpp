@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/files.h"
 #include "base/image_io.h"
@@ -104,7 +105,8 @@ Result<photographs::Photograph> clicked_camera(const MontageArguments& arguments
   const auto points = photographs::parse_clicked_points(*text, arguments.points.string());
   if (!points) return points.errors();
   std::optional<double> focal_px;
-  if (header.focal_length_35mm_mm > 0.0) focal_px = header.focal_length_35mm_mm / 36.0 * header.width;
+  if (header.focal_length_35mm_mm > 0.0)
+    focal_px = header.focal_length_35mm_mm / 36.0 * std::max(header.width, header.height);
   const Result<photographs::ClickedCamera> found =
       photographs::camera_of_points(*points, header.width, header.height, focal_px);
   if (!found) return error("{}: {}", arguments.points.string(), found.errors().front().message);
@@ -137,10 +139,24 @@ Result<photographs::Photograph> photograph_camera(const MontageArguments& argume
   return photograph;
 }
 
+/// Whether a camera sees the photograph as it is stored, whichever side of it is up.
+bool sees_stored(const photographs::Lens& lens, const photographs::PictureHeader& header) {
+  return lens.width == header.width && lens.height == header.height;
+}
+
+/// The header of the picture as it is shown.
+photographs::PictureHeader shown(photographs::PictureHeader header) {
+  constexpr int first_quarter_turn = 5;
+  if (header.orientation >= first_quarter_turn) std::swap(header.width, header.height);
+  return header;
+}
+
 Result<photomontage::MontageJob> job_of(const MontageArguments& arguments,
                                         const photographs::PictureHeader& header,
                                         const stage::Simulation& simulation) {
-  Result<photographs::Photograph> found = photograph_camera(arguments, header, simulation);
+  // Who clicks points, or names a camera of the scene, has seen the picture upright.
+  const bool is_listed = !arguments.cameras.empty();
+  Result<photographs::Photograph> found = photograph_camera(arguments, shown(header), simulation);
   if (!found) return found.errors();
   photomontage::MontageJob job;
   job.photograph = *std::move(found);
@@ -149,6 +165,8 @@ Result<photomontage::MontageJob> job_of(const MontageArguments& arguments,
   Result<Image8> picture = photographs::read_picture(job.photograph);
   if (!picture) return picture.errors();
   job.picture = *std::move(picture);
+  const bool is_stored = sees_stored(job.photograph.lens, header);
+  if (is_stored && !is_listed) job.picture = photographs::upright(job.picture, header.orientation);
   job.brightness = arguments.brightness;
   if (!arguments.grey.empty()) {
     const std::vector<double> numbers = scene::parse_numbers(arguments.grey);
@@ -156,8 +174,12 @@ Result<photomontage::MontageJob> job_of(const MontageArguments& arguments,
     job.grey = glm::ivec2(glm::clamp(glm::dvec2(numbers[0], numbers[1]), -1.0, 1e6));
   }
   if (!arguments.in_front.empty()) {
-    const Result<Image8> mask = read_image8(arguments.in_front);
+    Result<Image8> mask = read_image8(arguments.in_front);
     if (!mask) return mask.errors();
+    if (is_stored && is_listed) {  // painted over the upright picture
+      const int back = header.orientation == 6 ? 8 : header.orientation == 8 ? 6 : header.orientation;
+      mask = photographs::upright(*mask, back);
+    }
     if (mask->width != job.picture.width || mask->height != job.picture.height)
       return error("{}: has {} x {} pixels, and the photograph {} x {}; paint it over the photograph itself",
                    arguments.in_front.string(), mask->width, mask->height, job.picture.width,
@@ -236,6 +258,8 @@ Status make_photomontage(const MontageArguments& arguments) {
   if (!stage) return stage.errors();
   Result<photomontage::Montage> montage = photomontage::make_montage(**stage, *job);
   if (!montage) return montage.errors();
+  if (!arguments.cameras.empty() && sees_stored(job->photograph.lens, *header))
+    montage->picture = photographs::upright(montage->picture, header->orientation);
   const std::string caption = fmt::format("Photomontage: {} with design \"{}\" ({}); {}.",
                                           job->photograph.name, job->design, objects, sun);
   fmt::print("{}\nthe design covers {:.2f} % of the photograph and shades {:.2f} %\n", caption,
@@ -254,7 +278,10 @@ Status make_photomontage(const MontageArguments& arguments) {
 void add_photomontage(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("photomontage", "A design set into a photograph of the place");
   const auto arguments = std::make_shared<MontageArguments>();
-  command->add_option("photograph", arguments->photograph, "JPEG or PNG")->required();
+  command
+      ->add_option("photograph", arguments->photograph,
+                   "JPEG, PNG, HEIC, AVIF, WebP, TIFF, or a camera's raw file")
+      ->required();
   arguments->scene.add_scene(*command);
   arguments->scene.add_camera(*command);
   arguments->scene.add_state(*command);

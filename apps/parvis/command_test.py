@@ -899,6 +899,38 @@ camera(name="street", position="0 -8 3", target="0 0 0.5", fov_deg=50)
         self.assertGreater(told["shaded_fraction"], 0.002)
         self.assertTrue(montage.read_bytes().startswith(b"\x89PNG"))
 
+    def test_a_photograph_of_a_telephone_is_taken_as_it_is(self):
+        if not shutil.which("oiiotool"):
+            self.skipTest("skipped: no oiiotool here")
+        scene, photo = self.write_place()
+        telephone, report = self.folder / "IMG_1.HEIC", self.folder / "report.json"
+        subprocess.run(["oiiotool", photo, "--ch", "R,G,B", "--attrib", "Exif:DateTimeOriginal", "2026:06:21 10:30:00", "-o", telephone], check=True)
+        done = run("photomontage", telephone, scene, "--camera", "street", "--report", report, "-o", self.folder / "montage.png")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = json.loads(report.read_text())
+        self.assertIn("2026-06-21, 10:30", told["caption"])
+        self.assertGreater(told["covered_fraction"], 0.002)
+
+    def test_a_photograph_that_was_held_upright_is_shown_so(self):
+        if not shutil.which("oiiotool"):
+            self.skipTest("skipped: no oiiotool here")
+        scene, photo = self.write_place()
+        points, report, montage = (self.folder / name for name in ("points.txt", "report.json", "montage.png"))
+        points.write_text("".join(self.clicks()))
+        fractions = []
+        for orientation, turn in ((6, "--rotate270"), (3, "--rotate180"), (1, "--noop")):
+            stored = self.folder / "stored.jpg"
+            subprocess.run(["oiiotool", photo, "--ch", "R,G,B", *([turn] if orientation > 1 else []), "--attrib", "Orientation", str(orientation), "-o", stored], check=True)
+            done = run("photomontage", stored, scene, "--points", points, "--no-caption", "--report", report, "-o", montage)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(struct.unpack_from(">2I", montage.read_bytes(), 16), (320, 240))
+            told = json.loads(report.read_text())
+            for found, true in zip(told["camera"]["position"], (0, -8, 3)):
+                self.assertAlmostEqual(found, true, delta=0.02)
+            fractions.append(told["covered_fraction"])
+        for fraction in fractions:
+            self.assertAlmostEqual(fraction, fractions[-1], delta=0.002)
+
     def test_bad_input_is_answered(self):
         scene, photo = self.write_place()
         points = self.folder / "points.txt"

@@ -374,7 +374,10 @@ Result<LoadedSet> calibrate(const CalibrationJob& asked) {
       return inside.errors();
   if (Status status = prepare(job, pictures, work); !status) return status.errors();
   Result<LoadedSet> loaded = reconstruct(job, pictures, work);
-  if (!loaded) return loaded;
+  if (!loaded) {  // pictures that cannot be read may be the reason
+    problems.insert(problems.end(), loaded.errors().begin(), loaded.errors().end());
+    return problems;
+  }
   loaded->problems.insert(loaded->problems.begin(), problems.begin(), problems.end());
   name_missing(pictures, work, *loaded);
   tell_orientations(pictures, loaded->set);

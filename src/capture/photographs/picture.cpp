@@ -20,24 +20,6 @@ namespace fs = std::filesystem;
 
 bool is_turned_by_a_quarter(int orientation) { return orientation >= 5 && orientation <= 8; }
 
-/// The picture as EXIF's orientation (CIPA DC-008, 4.6.4 A) wants it shown.
-Image8 upright(const Image8& stored, int orientation) {
-  const bool quarter = is_turned_by_a_quarter(orientation);
-  Image8 shown(quarter ? stored.height : stored.width, quarter ? stored.width : stored.height,
-               stored.channels);
-  const int right = stored.width - 1, bottom = stored.height - 1;
-  for (int y = 0; y < shown.height; ++y)
-    for (int x = 0; x < shown.width; ++x) {
-      int from_x = quarter ? y : x, from_y = quarter ? x : y;
-      if (orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8)
-        from_x = right - from_x;
-      if (orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7)
-        from_y = bottom - from_y;
-      std::copy_n(stored.at(from_x, from_y), stored.channels, shown.at(x, y));
-    }
-  return shown;
-}
-
 Error wrong_size(const Photograph& photograph, int width, int height) {
   return error(
       "{}: the picture has {} x {} pixels, its camera {} x {}; give the camera of this picture, or the "
@@ -68,6 +50,23 @@ Status apply_mask(const Photograph& photograph, Image8& image) {
 }
 
 }  // namespace
+
+Image8 upright(const Image8& stored, int orientation) {
+  const bool quarter = is_turned_by_a_quarter(orientation);
+  Image8 shown(quarter ? stored.height : stored.width, quarter ? stored.width : stored.height,
+               stored.channels);
+  const int right = stored.width - 1, bottom = stored.height - 1;
+  for (int y = 0; y < shown.height; ++y)
+    for (int x = 0; x < shown.width; ++x) {
+      int from_x = quarter ? y : x, from_y = quarter ? x : y;
+      if (orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8)
+        from_x = right - from_x;
+      if (orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7)
+        from_y = bottom - from_y;
+      std::copy_n(stored.at(from_x, from_y), stored.channels, shown.at(x, y));
+    }
+  return shown;
+}
 
 Result<Image8> read_picture(const Photograph& photograph) {
   const Result<PictureHeader> info = read_picture_header(photograph.file);

@@ -20,6 +20,10 @@ inline constexpr std::size_t max_photograph_pixels = std::size_t(150) * 1000 * 1
 /// the file: damaged, cut short, too large, of another size.
 Result<Image8> read_picture(const Photograph& photograph);
 
+/// The stored picture as EXIF's orientation (CIPA DC-008, 4.6.4 A), 1 to 8, wants it shown. What turns it
+/// back is 8 for 6, 6 for 8, and itself for the others.
+Image8 upright(const Image8& stored, int orientation);
+
 /// A photograph with its pixels.
 struct Picture {
   Photograph photograph;

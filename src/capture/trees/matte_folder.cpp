@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t record_version = 1;  // of the records' content
 constexpr int matte_version = 1;             // to be raised whenever the same input gives another matte
 constexpr double max_covered_edges = 0.2;    // of whole plants: a branch may be cut
+constexpr std::uint8_t covered_from = 26;    // alpha, a tenth: background that is half taken for plant counts
 const std::string records = ".mattes";       // below the output
 
 /// The pictures of a folder, by name.
@@ -50,7 +51,7 @@ std::uint64_t hash_of(const Image8& picture) {
 /// Which part of the left, upper and right edges of a picture is opaque.
 double edges_covered(const Image8& rgba) {
   int covered = 0;
-  const auto count = [&](int x, int y) { covered += rgba.at(x, y)[3] > 127; };
+  const auto count = [&](int x, int y) { covered += rgba.at(x, y)[3] >= covered_from; };
   for (int x = 0; x < rgba.width; ++x) count(x, 0);
   for (int y = 0; y < rgba.height; ++y) count(0, y), count(rgba.width - 1, y);
   return double(covered) / (rgba.width + 2 * rgba.height);

@@ -106,7 +106,7 @@ TEST_F(MatteFolders, OneThatSomebodyPaintedIsKept) {
   expect_counts(1, 1, 0);
 }
 
-TEST_F(MatteFolders, OneThatCoversTheEdgesIsDoubtful) {
+TEST_F(MatteFolders, OneThatCoversTheEdgesIsDoubtfulAlsoWhereItIsNotSure) {
   Image8 inverted = photograph(10.0f);  // RGBA: of the disc's surroundings
   Image8 rgba(side_px, side_px, 4, 255);
   for (int y = 0; y < side_px; ++y)
@@ -114,11 +114,14 @@ TEST_F(MatteFolders, OneThatCoversTheEdgesIsDoubtful) {
       for (int c = 0; c < 3; ++c) rgba.at(x, y)[c] = inverted.at(x, y)[c];
       rgba.at(x, y)[3] = inverted.at(x, y)[2] > 100 ? 255 : 0;
     }
+  Image8 unsure = rgba;
+  for (std::size_t i = 3; i < unsure.pixels.size(); i += 4) unsure.pixels[i] = unsure.pixels[i] / 3;
+  ASSERT_TRUE(write_image(folder.photographs / "a.png", unsure).ok());
   ASSERT_TRUE(write_image(folder.photographs / "b.png", rgba).ok());
   const Result<MatteCounts> counts = write_mattes(folder);
   ASSERT_TRUE(counts) << to_string(counts.errors());
   EXPECT_EQ(counts->made, 2);
-  EXPECT_EQ(counts->doubtful, 1);
+  EXPECT_EQ(counts->doubtful, 2);
 }
 
 }  // namespace
