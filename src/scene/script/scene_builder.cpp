@@ -70,11 +70,12 @@ void SceneBuilder::build(const Nodes& nodes, const glm::mat4& parent_from_nodes,
   frame_.is_visible = outer.is_visible && is_visible;
   Progress progress("building the scene", nodes.size());
   for (const Node& node : nodes) {
+    if (!wanted_ || wanted_->contains(&node)) {
+      const auto* wanted = std::exchange(wanted_, nullptr);  // what stands in it is wanted, too
+      build_one(node);
+      wanted_ = wanted;
+    }
     progress.advance();
-    if (wanted_ && !wanted_->contains(&node)) continue;
-    const auto* wanted = std::exchange(wanted_, nullptr);  // what stands in it is wanted, too
-    build_one(node);
-    wanted_ = wanted;
   }
   frame_ = outer;
 }
