@@ -5,6 +5,7 @@ Usage: formats_test.py PARVIS [unittest's arguments].
 """
 
 import base64
+import io
 import json
 import math
 import pathlib
@@ -15,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "apps/bench/files"))
@@ -67,6 +69,34 @@ def ply(properties="", values="", elements="", rest=""):
 def stl(attribute, at=(0, 0, 0)):
     facets = b"".join(struct.pack("<12fH", 0, 0, 0, *(at[k] + CORNERS[i][k] for i in half for k in range(3)), attribute) for half in HALVES)
     return b"COLOR=\xc8\xc8\xc8\xff".ljust(80) + struct.pack("<I", len(HALVES)) + facets
+
+
+def fbx(unit_cm, up, front, front_sign):
+    """A cube of 10 units, moved by 50 along the file's z, with the settings that programs write."""
+    points = ",".join("%d,%d,%d" % tuple(10 * v for v in corner) for corner in CORNERS)
+    polygons = ",".join(",".join(str(-i - 1 if k == 3 else i) for k, i in enumerate(side)) for side in SIDES)
+    settings = "".join(f'\t\tP: "{name}", "int", "Integer", "",{value}\n' for name, value in (
+        ("UpAxis", up), ("UpAxisSign", 1), ("FrontAxis", front), ("FrontAxisSign", front_sign), ("CoordAxis", 0), ("CoordAxisSign", 1)))
+    return (f'; FBX 7.3.0 project file\nFBXHeaderExtension:  {{\n\tFBXHeaderVersion: 1003\n\tFBXVersion: 7300\n}}\nGlobalSettings:  {{\n\tVersion: 1000\n\tProperties70:  {{\n{settings}'
+            f'\t\tP: "UnitScaleFactor", "double", "Number", "",{unit_cm}\n\t}}\n}}\nObjects:  {{\n\tGeometry: 1000, "Geometry::cube", "Mesh" {{\n\t\tVertices: *24 {{\n\t\t\ta: {points}\n\t\t}}\n'
+            f'\t\tPolygonVertexIndex: *24 {{\n\t\t\ta: {polygons}\n\t\t}}\n\t\tGeometryVersion: 124\n\t}}\n\tModel: 2000, "Model::cube", "Mesh" {{\n\t\tVersion: 232\n\t\tProperties70:  {{\n'
+            '\t\t\tP: "Lcl Translation", "Lcl Translation", "", "A",0,0,50\n\t\t}\n\t}\n}\nConnections:  {\n\tC: "OO",2000,0\n\tC: "OO",1000,2000\n}\n')
+
+
+def three_mf(unit, packing=zipfile.ZIP_DEFLATED):
+    """A cube of one unit, and another one 2 units above it."""
+    opc, kinds = "http://schemas.openxmlformats.org/package/2006/", "application/vnd."
+    corners = "".join('<vertex x="%d" y="%d" z="%d"/>' % corner for corner in CORNERS)
+    triangles = "".join('<triangle v1="%d" v2="%d" v3="%d"/>' % half for half in HALVES)
+    held = io.BytesIO()
+    with zipfile.ZipFile(held, "w", packing) as archive:
+        archive.writestr("[Content_Types].xml", f'<Types xmlns="{opc}content-types"><Default Extension="rels" ContentType="{kinds}openxmlformats-package.relationships+xml"/>'
+                         f'<Default Extension="model" ContentType="{kinds}ms-package.3dmanufacturing-3dmodel+xml"/></Types>')
+        archive.writestr("_rels/.rels", f'<Relationships xmlns="{opc}relationships"><Relationship Target="/3D/3dmodel.model" Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>')
+        archive.writestr("3D/3dmodel.model", f'<model {unit} xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources><object id="1" type="model"><mesh><vertices>{corners}</vertices>'
+                         f'<triangles>{triangles}</triangles></mesh></object><object id="2" type="model"><components><component objectid="1"/><component objectid="1" transform="1 0 0 0 1 0 0 0 1 0 0 2"/>'
+                         "</components></object></resources><build><item objectid=\"2\"/></build></model>")
+    return held.getvalue()
 
 
 def vrml(*nodes):
@@ -179,6 +209,34 @@ def tiff(values, bands=1, photometric=1, kind=3, bits=32, tags=()):
     return struct.pack("<2sHIH", b"II", 42, 8, len(entries)) + table + struct.pack("<I", 0) + extra + data
 
 
+def dng(red, green, blue, turned):
+    """A raw file of a camera, 64 x 48, of one linear colour behind a Bayer mosaic whose primaries are those of sRGB; held upright where `turned`."""
+    level = ((red, green), (green, blue))
+    data = b"".join(struct.pack("<H", round(65535 * level[y % 2][x % 2])) for y in range(48) for x in range(64))
+    to_camera = (3.2406, -1.5372, -0.4986, -0.9689, 1.8758, 0.0415, 0.0557, -0.2040, 1.0570)  # from CIE XYZ
+    short, long_, text = (lambda *v: struct.pack(f"<{len(v)}H", *v)), (lambda v: struct.pack("<I", v)), (lambda v: v.encode() + b"\0")
+    entries = [(254, 4, 1, long_(0)), (256, 4, 1, long_(64)), (257, 4, 1, long_(48)), (258, 3, 1, short(16)), (259, 3, 1, short(1)), (262, 3, 1, short(32803)),
+               (271, 2, 5, text("Make")), (272, 2, 6, text("Model")), (273, 4, 1, None), (274, 3, 1, short(6 if turned else 1)), (277, 3, 1, short(1)), (278, 4, 1, long_(48)),
+               (279, 4, 1, long_(len(data))), (284, 3, 1, short(1)), (306, 2, 20, text("2026:06:21 10:30:00")), (33421, 3, 2, short(2, 2)), (33422, 1, 4, bytes((0, 1, 1, 2))),
+               (50706, 1, 4, bytes((1, 4, 0, 0))), (50707, 1, 4, bytes((1, 1, 0, 0))), (50708, 2, 6, text("Model")), (50714, 4, 1, long_(0)), (50717, 4, 1, long_(65535)),
+               (50721, 10, 9, b"".join(struct.pack("<2i", round(10000 * v), 10000) for v in to_camera)), (50728, 5, 3, struct.pack("<6I", *[1] * 6)), (50778, 3, 1, short(21))]
+    start = 8 + 2 + 12 * len(entries) + 4
+    data_at = start + sum(len(value) + len(value) % 2 for *_, value in entries if value and len(value) > 4)
+    table, extra = b"", b""
+    for number, kind, count, value in entries:
+        value = long_(data_at) if value is None else value
+        table += struct.pack("<HHI", number, kind, count) + (long_(start + len(extra)) if len(value) > 4 else value.ljust(4, b"\0"))
+        extra += value + b"\0" * (len(value) % 2) if len(value) > 4 else b""
+    return struct.pack("<2sHIH", b"II", 42, 8, len(entries)) + table + long_(0) + extra + data
+
+
+def pixel(picture, width, height):
+    """Size of a picture by ffmpeg, and the colour of its middle."""
+    raw = subprocess.run(["ffmpeg", "-v", "error", "-i", picture, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"], capture_output=True, check=True).stdout
+    at = 3 * (width * (height // 2) + width // 2)
+    return len(raw), tuple(raw[at : at + 3])
+
+
 SLOPE = [10.0 + i % 8 for i in range(64)]
 MESHES = "OBJ, PLY, STL, OFF, COLLADA, FBX, 3DS, 3MF, AC3D, LightWave, DirectX"
 OPEN_GL_POINT = {"attributes": {"POSITION": 0}, "mode": 0}
@@ -227,10 +285,16 @@ NAMED = [
 MEASURED = [
     ("cube.gltf", gltf(), (1, 1, 1), 1, 6),
     ("mirrored_twice.gltf", gltf(nodes=[{"children": [1], "scale": [-1, 1, 1]}, {"mesh": 0, "scale": [1, -2, 1]}]), (1, 1, 2), 2, 10),
+    ("sheared.gltf", gltf(nodes=[{"mesh": 0, "matrix": [1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}]), (1.5, 1, 1), 1, None),
     ("no_positions.gltf", gltf(primitives=[{"attributes": {"_COLOUR": 0}}]), (1, 1, 1), 1, 6),
     ("even_l.obj", outline((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)), (2, 0, 2), None, 3),
     ("comb.obj", outline((0, 0), (5, 0), (5, 3), (4, 3), (4, 1), (3, 1), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)), (5, 0, 3), None, 11),
     ("continued.obj", obj().replace("f 1 2 4 3", "f 1 2 \\\n 4 3"), (1, 1, 1), 1, 6),
+    ("metres.3mf", three_mf('unit="meter"'), (1, 1, 3), 2, None),
+    ("inches.3mf", three_mf('unit="inch"', zipfile.ZIP_STORED), (0.0254, 0.0254, 0.0762), 2 * 0.0254**3, None),
+    ("millimetres.3mf", three_mf(""), (0.001, 0.001, 0.003), None, None),
+    ("centimetres_y_up.fbx", fbx(1, 1, 2, 1), (0.1, 0.1, 0.1), 0.001, None),
+    ("metres_z_up.fbx", fbx(100, 2, 1, -1), (10, 10, 10), 1000, None),
     ("mirrored.wrl", vrml("Transform { scale -1 1 1 children Shape { geometry Box { size 2 1 1 } } }"), (2, 1, 1), 2, 10),
     ("clockwise.wrl", vrml("Transform { scale 1 1 -1 children Shape { geometry IndexedFaceSet { ccw FALSE coord Coordinate { point [ %s ] } coordIndex [ %s ] } } }" % (
         ", ".join("%d %d %d" % c for c in CORNERS), " ".join("%d %d %d %d -1" % s[::-1] for s in SIDES))), (1, 1, 1), 1, 6),
@@ -240,6 +304,10 @@ MEASURED = [
     ("two_profiles.ifc", ifc(item=TWO_PROFILES), (4, 1.3, 2.5), 6, None),
     ("by_reference.ifc", ifc(item=[*SWEPT, "#36=IFCFIXEDREFERENCESWEPTAREASOLID(#35,$,#130,$,$,#2);"]), (3.1, 2.1, 0.4), 0.4, None),
     ("on_plane.ifc", ifc(item=[*SWEPT, "#39=IFCPLANE(#4);", "#36=IFCSURFACECURVESWEPTAREASOLID(#35,$,#130,0.,2.,#39);"]), (3.1, 2.1, 0.4), 0.4, None),
+    ("block.ifc", ifc(item=["#36=IFCCSGSOLID(#37);", "#37=IFCBLOCK(#4,4000.,300.,2500.);"], unit=".MILLI."), (4, 0.3, 2.5), 3, None),
+    ("pyramid.ifc", ifc(item=["#36=IFCCSGSOLID(#37);", "#37=IFCRECTANGULARPYRAMID(#4,4.,3.,2.);"]), (4, 3, 2), 8, None),
+    ("slanted.ifc", ifc("#50=IFCDIRECTION((3.,0.,4.));", item=["#35=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,1.,1.);", "#36=IFCEXTRUDEDAREASOLID(#35,#4,#50,5.);"]), (4, 1, 4), 4, None),
+    ("sphere.ifc", ifc(item=["#36=IFCSPHERE(#4,2000.);"], unit=".MILLI."), (4, 4, 4), None, None),
     ("coord.gml", gml(coord), (10, 10, 0), None, 100),
     ("twice.osm", osm("HOUSE"), None, None, None),
     ("places_in_ways.osm", osm('<node id="9" lat="52" lon="4"/>', nodes=False), None, None, None),
@@ -292,6 +360,13 @@ class Formats(unittest.TestCase):
                 if area is not None:
                     self.assertAlmostEqual(sum(area_of(*triangle) for triangle in model.triangles), area, delta=1e-3 * area)
 
+    def test_what_is_up_in_a_file_is_up(self):
+        for name, content, low in (("y.fbx", fbx(100, 1, 2, 1), (0, -60, 0)), ("z.fbx", fbx(100, 2, 1, -1), (0, 0, 50)), ("part.3mf", three_mf('unit="meter"'), (0, 0, 0))):
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                _, model = read(pathlib.Path(folder), name, content)
+                for given, right in zip(model.box()[0], low):
+                    self.assertAlmostEqual(given, right, delta=1e-3)
+
     def test_a_house_of_a_map_is_there_once_wherever_its_corners_are_written(self):
         areas = []
         for content in (osm(), osm("HOUSE"), osm('<node id="9" lat="52" lon="4"/>', nodes=False), osm(nodes=False)):
@@ -327,6 +402,24 @@ class Formats(unittest.TestCase):
             self.assertIn("IMG_2.HEIC", done.stderr)
             self.assertIn("holds 1 photographs that can be read", done.stderr)
 
+    def test_raw_files_of_cameras_are_developed(self):
+        if not shutil.which("ffmpeg"):
+            self.skipTest("skipped: no ffmpeg here")
+        with tempfile.TemporaryDirectory() as folder:
+            photos, place = pathlib.Path(folder) / "photos", pathlib.Path(folder) / "place"
+            photos.mkdir()
+            (photos / "lying.dng").write_bytes(dng(0.5, 0.2, 0.05, turned=False))
+            (photos / "UPRIGHT.DNG").write_bytes(dng(0.5, 0.2, 0.05, turned=True))
+            (photos / "broken.nef").write_bytes(b"no raw file")
+            done = subprocess.run([PARVIS, "facade", "calibrate", photos, "-o", place], capture_output=True, text=True, timeout=240)
+            self.assertIn("broken.nef", done.stderr)
+            self.assertNotIn("lying.dng: cannot", done.stderr)
+            for name, width, height in (("lying.jpg", 64, 48), ("UPRIGHT.jpg", 48, 64)):
+                size, colour = pixel(place / "developed" / name, width, height)
+                self.assertEqual(size, 3 * 64 * 48)
+                for given, right in zip(colour, (188, 124, 63)):  # sRGB of .5, .2 and .05
+                    self.assertAlmostEqual(given, right, delta=4)
+
     def test_a_grid_without_a_system_says_so(self):
         with tempfile.TemporaryDirectory() as folder:
             lines, _ = read(pathlib.Path(folder), "no_system.city.json", city_json())
@@ -349,6 +442,7 @@ ELSEWHERE = [
     "other pictures",  # Assimp.WhatIsLeftOutIsNamed
     "of levels of detail one is shown",  # Inventor.WhatMakesNoTrianglesIsCountedByKindAndName
     "entities that IFC 4 has not",  # IfcBodies.ObjectsAndUnknownEntitiesAreAccountedFor
+    "faces of advanced breps on other surfaces",  # IfcBodies.FacesOfAdvancedBrepsAreBoundedByEdges
     "the taper of revolved solids", "each item that IFC++ makes no surface of",  # IfcBodies.WhatGivesNoSurfaceIsNamed
     "other textures, property sets",  # TexturedIfcTest
     "other elements of such schemas",  # CityGmlExtensions

@@ -1,6 +1,7 @@
 // What people really hand over: each test is a kind of file that readers get wrong in silence.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
@@ -125,6 +126,38 @@ TEST(GltfKinds, AMatrixIsReadAtAnyScaleAndAFlatOneStaysFlat) {
   ASSERT_EQ(flat.parts.size(), 1u);
   expect_near(corners_of_part(flat)[1], {2, 0, 0});
   expect_near(corners_of_part(flat)[2], {0, 0, 2});
+}
+
+TEST(GltfKinds, AMatrixThatShearsIsReadAsItStands) {
+  File file = triangle();
+  // The leaf's upper corner lies half a metre to the side; a mirror of the same; a node below; a flat one.
+  const Json sheared = {1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 2, 3, 4, 1};
+  file.json["nodes"] = {{{"name", "sheared"}, {"children", {1}}, {"matrix", sheared}},
+                        {{"name", "leaf"}, {"mesh", 0}, {"translation", {0, 2, 0}}}};
+  const Model model = file.model();
+  ASSERT_EQ(model.parts.size(), 1u);
+  expect_near(corners_of_part(model)[0], {3, -4, 5});
+  expect_near(corners_of_part(model)[1], {4, -4, 5});
+  expect_near(corners_of_part(model)[2], {3.5, -4, 6});
+  expect_near(facing(model), {0, -1, 0});
+  const auto named = [](const Model& read, const char* name) {
+    return std::ranges::count_if(read.nodes, [&](const ModelNode& node) { return node.name == name; });
+  };
+  EXPECT_EQ(named(model, "sheared"), 1);
+  const TestFolder folder;
+  Errors warnings;
+  ASSERT_TRUE(write_gltf(folder.path() / "again.glb", model));
+  const Result<Model> again = read_gltf(folder.path() / "again.glb", warnings);
+  ASSERT_TRUE(again) << to_string(again.errors());
+  expect_near(corners_of_part(*again)[2], {3.5, -4, 6});
+  file.json["nodes"] = {{{"mesh", 0}, {"matrix", {-1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}};
+  const Model mirrored = file.model();
+  expect_near(facing(mirrored), {0, -1, 0});
+  EXPECT_TRUE(std::ranges::any_of(corners_of_part(mirrored), [](glm::dvec3 corner) {
+    return glm::distance(corner, {0.5, 0, 1}) < 1e-5;
+  }));
+  file.json["nodes"] = {{{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0.5, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}};
+  expect_near(corners_of_part(file.model())[2], {0.5, 0, 0});
 }
 
 TEST(GltfKinds, LargeTranslationsThatCancelLeaveMillimetres) {

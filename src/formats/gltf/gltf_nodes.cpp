@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "formats/gltf/gltf_transform.h"
 #include "formats/gltf/gltf_values.h"
@@ -13,18 +14,36 @@ using Json = GltfFile::Json;
 
 constexpr std::size_t max_warnings = 20;  // of a graph that is no tree: a hostile file has millions
 
-ModelNode read_node(const Json& source, int parent, FileAccount& account) {
+/// The transform of a node; of one that shears, that of a second node below it as well.
+struct NodeTransform {
   ModelNode node;
+  std::optional<ModelNode> lower = std::nullopt;
+};
+
+void check_finite(const ModelNode& node, const std::string& name) {
+  for (int i = 0; i < 3; ++i)
+    if (!std::isfinite(node.translation[i]) || !std::isfinite(node.scale[i]) ||
+        !std::isfinite(node.rotation[i]))
+      gltf_fail("the transform of node \"{}\" is not finite", name);
+}
+
+NodeTransform read_node(const Json& source, FileAccount& account) {
+  NodeTransform read;
+  ModelNode& node = read.node;
   node.name = source.value("name", "");
-  node.parent = parent;
   if (source.contains("matrix")) {
     glm::dmat4 matrix(1.0);
     const Json& values = source["matrix"];
     if (!values.is_array() || values.size() != 16)
       gltf_fail("a node's matrix has {} numbers; expected 16", values.size());
     for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = values[std::size_t(i)].get<double>();
-    if (!decompose(matrix, node))
-      account.changed("matrices of nodes", "they shear, which glTF does not allow", node.name);
+    if (!decompose(matrix, node)) {
+      read.lower = ModelNode{.name = node.name};
+      node.name.clear();
+      decompose(matrix, node, *read.lower);
+      check_finite(*read.lower, read.lower->name);
+      account.used("matrices that shear");
+    }
   } else {
     node.translation = gltf_vector<3>(source, "translation", glm::dvec3(0.0));
     node.scale = gltf_vector<3>(source, "scale", glm::dvec3(1.0));
@@ -32,11 +51,8 @@ ModelNode read_node(const Json& source, int parent, FileAccount& account) {
     const double length = glm::length(q);
     if (length > 0.0) node.rotation = glm::dquat(q.w, q.x, q.y, q.z) / length;
   }
-  for (int i = 0; i < 3; ++i)
-    if (!std::isfinite(node.translation[i]) || !std::isfinite(node.scale[i]) ||
-        !std::isfinite(node.rotation[i]))
-      gltf_fail("the transform of node \"{}\" is not finite", node.name);
-  return node;
+  check_finite(node, source.value("name", ""));
+  return read;
 }
 
 class TreeReader {
@@ -91,17 +107,32 @@ class TreeReader {
         leave_out(gltf_node, parent);
         continue;
       }
-      const int node = int(model_.nodes.size());
-      nodes_.of_gltf[gltf_node] = node;
-      nodes_.gltf_of.push_back(int(gltf_node));
       const Json& source = file_.list("nodes")[gltf_node];
-      model_.nodes.push_back(read_node(source, parent, account_));
+      const NodeTransform read = read_node(source, account_);
       const Json& visibility = gltf_extension(source, "KHR_node_visibility");
-      nodes_.is_hidden.push_back(nodes_.is_hidden[std::size_t(parent)] != 0 ||
-                                 !visibility.value("visible", true));
+      const bool is_hidden = nodes_.is_hidden[std::size_t(parent)] != 0 || !visibility.value("visible", true);
+      const int upper = append(read.node, parent, is_hidden);
+      const int node = read.lower ? append(*read.lower, upper, is_hidden) : upper;
+      nodes_.of_gltf[gltf_node] = node;
+      nodes_.gltf_of[std::size_t(node)] = int(gltf_node);
       for (const Json& child : source.value("children", Json::array()))
         open.emplace_back(node_index(child), node);
     }
+  }
+
+  int append(ModelNode node, int parent, bool is_hidden) {
+    node.parent = parent;
+    model_.nodes.push_back(std::move(node));
+    nodes_.gltf_of.push_back(no_index);
+    nodes_.is_hidden.push_back(is_hidden);
+    return int(model_.nodes.size()) - 1;
+  }
+
+  /// The node of the file above one; 0: the scene.
+  int above(int node) const {
+    do node = model_.nodes[std::size_t(node)].parent;
+    while (node != 0 && nodes_.gltf_of[std::size_t(node)] == no_index);
+    return node;
   }
 
   void count() {
@@ -110,7 +141,9 @@ class TreeReader {
         account_.unneeded("nodes", "no scene shows them",
                           file_.list("nodes")[i].value("name", fmt::format("node {}", i)));
     for (std::size_t i = 1; i < model_.nodes.size(); ++i)
-      if (nodes_.is_hidden[i] != 0)
+      if (nodes_.gltf_of[i] == no_index)
+        continue;
+      else if (nodes_.is_hidden[i] != 0)
         account_.unneeded("nodes", "the file hides them", model_.nodes[i].name);
       else
         account_.used("nodes");
@@ -122,17 +155,16 @@ class TreeReader {
   void leave_out(std::size_t gltf_node, int parent) {
     if (++left_out_ > max_warnings) return;
     const int present = nodes_.of_gltf[gltf_node];
-    int above = parent;
-    while (above > present) above = model_.nodes[std::size_t(above)].parent;
+    int ancestor = parent;
+    while (ancestor > present) ancestor = above(ancestor);
     const auto gltf_of = [&](int node) { return nodes_.gltf_of[std::size_t(node)]; };
     const std::string first_parent =
-        model_.nodes[std::size_t(present)].parent == 0
-            ? "the scene"
-            : fmt::format("node {}", gltf_of(model_.nodes[std::size_t(present)].parent));
-    const std::string reason = above == present ? fmt::format("node {} is its own ancestor through node {}",
-                                                              gltf_node, gltf_of(parent))
-                                                : fmt::format("node {} has two parents, {} and node {}",
-                                                              gltf_node, first_parent, gltf_of(parent));
+        above(present) == 0 ? "the scene" : fmt::format("node {}", gltf_of(above(present)));
+    const std::string reason =
+        ancestor == present
+            ? fmt::format("node {} is its own ancestor through node {}", gltf_node, gltf_of(parent))
+            : fmt::format("node {} has two parents, {} and node {}", gltf_node, first_parent,
+                          gltf_of(parent));
     warnings_.push_back(
         {reason + "; glTF asks for a tree: the second link is left out", {file_.path().string(), 0, 0}});
   }

@@ -99,6 +99,7 @@ class PartReader {
   void read() {
     std::vector<char> is_shown(file_.list("meshes").size(), 0);
     for (std::size_t node = 1; node < nodes_.gltf_of.size(); ++node) {
+      if (nodes_.gltf_of[node] == no_index) continue;
       const Json& source = file_.list("nodes")[std::size_t(nodes_.gltf_of[node])];
       const int mesh = file_.index(source, "mesh", "meshes");
       if (mesh < 0 || nodes_.is_hidden[node] != 0) continue;

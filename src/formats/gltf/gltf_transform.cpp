@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace parvis::scene {
 namespace {
@@ -15,13 +16,16 @@ glm::dvec3 beside(glm::dvec3 axis) {
 }  // namespace
 
 bool decompose(const glm::dmat4& matrix, ModelNode& node) {
-  constexpr double max_cosine = 1e-3;  // matrices are written with few digits
+  constexpr double max_cosine = 1e-3;  // of axes that point the same way, where one of them has no length
+  constexpr double max_skew = 1e-5;    // 1 mm at 100 m; rounding to single precision leaves 1e-7
+  constexpr double rounding = 1e-14;   // an axis that is shorter beside the others points anywhere
   node.translation = glm::dvec3(matrix[3]);
   glm::dvec3 axes[3];
   bool is_flat[3];
+  for (int i = 0; i < 3; ++i) node.scale[i] = glm::length(glm::dvec3(matrix[i]));
+  const double largest = std::max({node.scale.x, node.scale.y, node.scale.z});
   for (int i = 0; i < 3; ++i) {
-    node.scale[i] = glm::length(glm::dvec3(matrix[i]));
-    is_flat[i] = !(node.scale[i] > 0.0);
+    is_flat[i] = !(node.scale[i] > rounding * largest);
     axes[i] = is_flat[i] ? glm::dvec3(0.0) : glm::dvec3(matrix[i]) / node.scale[i];
   }
   for (int i = 0; i < 3; ++i) {  // an axis without length points where the others leave room
@@ -40,7 +44,34 @@ bool decompose(const glm::dmat4& matrix, ModelNode& node) {
   across = glm::length(across) > max_cosine ? glm::normalize(across) : beside(axes[0]);
   node.rotation = glm::normalize(
       glm::quat_cast(glm::dmat3(axes[0], glm::normalize(glm::cross(across, axes[0])), across)));
-  return skew < max_cosine;
+  return skew < max_skew;
+}
+
+void decompose(const glm::dmat4& matrix, ModelNode& upper, ModelNode& lower) {
+  constexpr int max_sweeps = 30;  // converges quadratically: some five are needed
+  constexpr double max_cosine = 1e-15;
+  glm::dmat4 turned = matrix;  // by `turn`, until its axes stand at right angles (Hestenes 1958)
+  glm::dmat3 turn(1.0);
+  bool is_done = false;
+  for (int sweep = 0; sweep < max_sweeps && !is_done; ++sweep) {
+    is_done = true;
+    for (const auto& [i, j] : {std::pair{0, 1}, {0, 2}, {1, 2}}) {
+      const glm::dvec3 a(turned[i]), b(turned[j]);
+      const double c = glm::dot(a, b);
+      if (!(std::abs(c) > max_cosine * glm::length(a) * glm::length(b))) continue;
+      is_done = false;
+      const double half = (glm::dot(b, b) - glm::dot(a, a)) / (2.0 * c);
+      const double t = (half < 0.0 ? -1.0 : 1.0) / (std::abs(half) + std::sqrt(1.0 + half * half));
+      const double cosine = 1.0 / std::sqrt(1.0 + t * t), sine = cosine * t;
+      turned[i] = glm::dvec4(cosine * a - sine * b, 0.0), turned[j] = glm::dvec4(sine * a + cosine * b, 0.0);
+      const glm::dvec3 of_i = turn[i], of_j = turn[j];
+      turn[i] = cosine * of_i - sine * of_j, turn[j] = sine * of_i + cosine * of_j;
+    }
+  }
+  decompose(turned, upper);
+  lower.translation = glm::dvec3(0.0);
+  lower.rotation = glm::normalize(glm::quat_cast(glm::transpose(turn)));
+  lower.scale = glm::dvec3(1.0);
 }
 
 glm::dmat4 z_up_from_y_up() {

@@ -13,6 +13,10 @@ namespace parvis::scene {
 /// they are then those of a matrix near it.
 bool decompose(const glm::dmat4& matrix, ModelNode& node);
 
+/// Sets translation, rotation and scale of two nodes, one below the other, to those of `matrix`, which may
+/// shear: its singular value decomposition (Hestenes 1958). The lower one only rotates.
+void decompose(const glm::dmat4& matrix, ModelNode& upper, ModelNode& lower);
+
 /// The matrix that turns the y axis of glTF up, an exact exchange of coordinates: (x, y, z) becomes (x, -z,
 /// y).
 glm::dmat4 z_up_from_y_up();

@@ -105,7 +105,11 @@ class Writer {
   }
 
   Status add(const Object& object) {
-    const int node = append(node_json(node_of(object.name, 0, object.world_from_model)), 0);
+    ModelNode upper{.name = object.name}, lower;
+    const bool shears = !decompose(glm::dmat4(object.world_from_model), upper);
+    if (shears) decompose(glm::dmat4(object.world_from_model), upper, lower);
+    int node = append(node_json(upper), 0);
+    if (shears) node = append(node_json(lower), node);
     return add(*object.model, object.materials(), nodes_now(object), object.name, node);
   }
 

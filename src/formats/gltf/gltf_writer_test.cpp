@@ -147,6 +147,24 @@ TEST(GltfWriter, ObjectsStandWhereTheSceneHasThem) {
   expect_valid_gltf(folder.path());
 }
 
+TEST(GltfWriter, AnObjectThatTheSceneShearsStandsSo) {
+  const TestFolder folder;
+  Scene scene = small_square();
+  Object& object = scene.objects.front();
+  scene.objects.resize(1);
+  object.world_from_model[2] = {0.5f, 0.0f, 1.0f, 0.0f};  // what is up leans east
+  ASSERT_TRUE(write_gltf(folder.path() / "leaning.glb", all_of(scene), {}));
+  const Model again = read_back(folder.path() / "leaning.glb");
+  Bounds expected;
+  const std::vector<glm::mat4> pose = object.pose.empty() ? rest_pose(*object.model) : object.pose;
+  for (const Part& part : object.model->parts)
+    for (const glm::vec3& v : part.mesh.positions)
+      expected.add(object.world_from_model * pose[std::size_t(part.node)] * glm::vec4(v, 1.0f));
+  EXPECT_LT(glm::distance(bounds(again).min, expected.min), 1e-4f);
+  EXPECT_LT(glm::distance(bounds(again).max, expected.max), 1e-4f);
+  expect_valid_gltf(folder.path());
+}
+
 TEST(GltfWriter, WhatIsABackdropAndWhatCastsNoShadowReadTheSame) {
   Model model = *model_of(ground(5), matt(glm::vec3(0.5f)));
   model.parts.push_back({.object = "marking", .mesh = ground(1), .casts_shadow = false});

@@ -9,8 +9,10 @@
 #include <ifcpp/IFC4/include/IfcEllipse.h>
 #include <ifcpp/IFC4/include/IfcLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcParameterValue.h>
+#include <ifcpp/IFC4/include/IfcPlaneAngleMeasure.h>
 #include <ifcpp/IFC4/include/IfcPolyline.h>
 #include <ifcpp/IFC4/include/IfcPositiveLengthMeasure.h>
+#include <ifcpp/IFC4/include/IfcRevolvedAreaSolid.h>
 #include <ifcpp/IFC4/include/IfcTrimmedCurve.h>
 #include <ifcpp/geometry/Carve/GeometryConverter.h>
 #include <ifcpp/model/BuildingModel.h>
@@ -34,7 +36,7 @@ struct Conic {
   glm::dvec2 radii{0.0};  // metres
 };
 
-std::optional<Conic> conic_of(IfcCurve* curve, RepresentationConverter& converter, double unit_m) {
+std::optional<Conic> conic_of(const IfcCurve* curve, RepresentationConverter& converter, double unit_m) {
   Conic conic;
   if (const auto* circle = dynamic_cast<const IfcCircle*>(curve); circle && circle->m_Radius)
     conic.radii = glm::dvec2(circle->m_Radius->m_value * unit_m);
@@ -52,6 +54,21 @@ std::optional<Conic> conic_of(IfcCurve* curve, RepresentationConverter& converte
   return conic;
 }
 
+/// Where a place lies on a conic, radians.
+double angle_of(glm::dvec3 place, const Conic& conic) {
+  const carve::math::Matrix& m = conic.world_from_conic;
+  place -= glm::dvec3(m.m[3][0], m.m[3][1], m.m[3][2]);
+  const double x = glm::dot(place, glm::dvec3(m.m[0][0], m.m[0][1], m.m[0][2])),
+               y = glm::dot(place, glm::dvec3(m.m[1][0], m.m[1][1], m.m[1][2]));
+  return std::atan2(y / conic.radii.y, x / conic.radii.x);
+}
+
+glm::dvec3 place_at(double angle, const Conic& conic) {
+  const vec3 at = conic.world_from_conic *
+                  carve::geom::VECTOR(conic.radii.x * std::cos(angle), conic.radii.y * std::sin(angle), 0.0);
+  return {at.x, at.y, at.z};
+}
+
 /// Where a trim lies on a conic, radians: by its point, which says the same in any unit, else by its
 /// parameter.
 std::optional<double> angle_of(const Trims& trims, const Conic& conic, double unit_m, double unit_rad) {
@@ -59,14 +76,10 @@ std::optional<double> angle_of(const Trims& trims, const Conic& conic, double un
   for (const auto& trim : trims) {
     if (const auto* point = dynamic_cast<const IfcCartesianPoint*>(trim.get());
         point && point->m_Coordinates.size() >= 2) {
-      glm::dvec3 from(0.0);  // the conic's middle
+      glm::dvec3 from(0.0);
       for (std::size_t axis = 0; axis < std::min<std::size_t>(point->m_Coordinates.size(), 3); ++axis)
         if (point->m_Coordinates[axis]) from[int(axis)] = point->m_Coordinates[axis]->m_value * unit_m;
-      const carve::math::Matrix& m = conic.world_from_conic;
-      from -= glm::dvec3(m.m[3][0], m.m[3][1], m.m[3][2]);
-      const double x = glm::dot(from, glm::dvec3(m.m[0][0], m.m[0][1], m.m[0][2])),
-                   y = glm::dot(from, glm::dvec3(m.m[1][0], m.m[1][1], m.m[1][2]));
-      return std::atan2(y / conic.radii.y, x / conic.radii.x);
+      return angle_of(from, conic);
     }
     if (const auto* parameter = dynamic_cast<const IfcParameterValue*>(trim.get()))
       angle = parameter->m_value * unit_rad;
@@ -108,11 +121,35 @@ std::vector<vec3> arc_of(const IfcTrimmedCurve& curve, RepresentationConverter& 
 
 }  // namespace
 
+std::optional<std::vector<glm::dvec3>> arc_between(const IfcCurve& curve,
+                                                   const std::array<glm::dvec3, 2>& ends, bool is_forward,
+                                                   RepresentationConverter& converter, double unit_m) {
+  const std::optional<Conic> conic = conic_of(&curve, converter, unit_m);
+  if (!conic) return std::nullopt;
+  const double from = angle_of(ends[0], *conic), sense = is_forward ? 1.0 : -1.0;
+  double opening = std::fmod(sense * (angle_of(ends[1], *conic) - from), whole_turn);
+  if (opening <= 1e-9) opening += whole_turn;
+  const int steps = std::max(1, int(std::ceil(opening / step_of_arc - 1e-6)));
+  std::vector<glm::dvec3> points;
+  for (int i = 1; i < steps; ++i) points.push_back(place_at(from + sense * opening * i / steps, *conic));
+  return points;
+}
+
+void settle_unit_of_angles(BuildingModel& building) {
+  UnitConverter& units = *building.getUnitConverter();
+  if (units.getAngularUnit() != UnitConverter::UNDEFINED) return;
+  constexpr double rounding = 1e-3;
+  const bool has_degrees = std::ranges::any_of(building.getMapIfcEntities(), [&](const auto& each) {
+    const auto* solid = dynamic_cast<const IfcRevolvedAreaSolid*>(each.second.get());
+    return solid && solid->m_Angle && std::abs(solid->m_Angle->m_value) > whole_turn + rounding;
+  });
+  units.setAngleUnit(has_degrees ? UnitConverter::DEGREE : UnitConverter::RADIANT);
+}
+
 void replace_arcs(BuildingModel& building, RepresentationConverter& converter) {
   UnitConverter& units = *building.getUnitConverter();
   const double unit_m = units.getLengthInMeterFactor();
-  const double unit_rad =
-      units.getAngularUnit() == UnitConverter::UNDEFINED ? 1.0 : units.getAngleInRadiantFactor();
+  const double unit_rad = units.getAngleInRadiantFactor();
   for (const auto& [id, entity] : building.getMapIfcEntities()) {
     auto* trimmed = dynamic_cast<IfcTrimmedCurve*>(entity.get());
     if (!trimmed) continue;

@@ -1,4 +1,5 @@
 // Bodies that IFC++ does not build by itself: indexed curves, swept disks, tapers; and what it loses.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -131,6 +132,215 @@ TEST(IfcBodies, TapersEndInTheirOtherProfile) {
   EXPECT_NEAR(volume_m3(*pier.model), 3.0 * (4.0 + 2.0 + 1.0) / 3.0, 1e-3) << "a truncated pyramid";
 }
 
+/// A file in millimetres.
+std::string in_millimetres(std::string text) {
+  const std::string metres = "#1=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);";
+  return text.replace(text.find(metres), metres.size(), "#1=IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.);");
+}
+
+TEST(IfcPrimitives, StandAtTheirCornerOrMiddleInTheFilesUnit) {
+  constexpr double pi = std::numbers::pi;
+  const double polygon = 24.0 * std::sin(pi / 24.0);  // area of 48 corners on a circle of 1
+  struct Case {
+    const char* entity;
+    glm::vec3 low, high;
+    double volume, tolerance;
+  };
+  for (const Case& shape :
+       {Case{"IFCBLOCK(#31,4000.,2000.,1000.)", {1, 2, 3}, {5, 4, 4}, 8.0, 1e-4},
+        Case{"IFCRECTANGULARPYRAMID(#31,4000.,2000.,3000.)", {1, 2, 3}, {5, 4, 6}, 8.0, 1e-4},
+        Case{"IFCRIGHTCIRCULARCYLINDER(#31,3000.,1000.)", {0, 1, 3}, {2, 3, 6}, 3.0 * polygon, 1e-4},
+        Case{"IFCRIGHTCIRCULARCONE(#31,3000.,1000.)", {0, 1, 3}, {2, 3, 6}, polygon, 1e-4},
+        Case{"IFCSPHERE(#31,1000.)", {0, 1, 2}, {2, 3, 4}, 4.0 / 3.0 * pi, 0.04}}) {
+    const std::string placed =
+        std::string("#30=IFCCARTESIANPOINT((1000.,2000.,3000.));\n") + "#31=IFCAXIS2PLACEMENT3D(#30,$,$);\n";
+    for (const std::string& body : {fmt::format("#40={};\n", shape.entity),
+                                    fmt::format("#40=IFCCSGSOLID(#41);\n#41={};\n", shape.entity)}) {
+      const ReadIfc read = read_text(in_millimetres(one_object("IFCBUILDINGELEMENTPROXY", placed + body)));
+      ASSERT_TRUE(read.model);
+      EXPECT_EQ(read.warnings, "") << body;
+      const Bounds box = bounds(*read.model);
+      EXPECT_LT(glm::distance(box.min, shape.low), 1e-4f)
+          << body << box.min.x << " " << box.min.y << " " << box.min.z;
+      EXPECT_LT(glm::distance(box.max, shape.high), 1e-4f)
+          << body << box.max.x << " " << box.max.y << " " << box.max.z;
+      EXPECT_NEAR(volume_m3(*read.model), shape.volume, shape.tolerance) << body;
+    }
+  }
+}
+
+TEST(IfcPrimitives, AreOperandsOfBooleans) {
+  // A block of 4 x 2 x 1 m less its corner of 1 m3, and what lies beyond x = 3, whose box is no limit.
+  const ReadIfc cut = read_text(one_object("IFCSLAB", R"(#30=IFCBLOCK(#4,4.,2.,1.);
+#31=IFCBLOCK(#4,1.,1.,2.);
+#32=IFCBOOLEANRESULT(.DIFFERENCE.,#30,#31);
+#33=IFCCARTESIANPOINT((3.,0.,0.));
+#34=IFCDIRECTION((-1.,0.,0.));
+#35=IFCAXIS2PLACEMENT3D(#33,#34,#10);
+#36=IFCPLANE(#35);
+#37=IFCCARTESIANPOINT((3.,-1.,-1.));
+#38=IFCBOUNDINGBOX(#37,9.,9.,9.);
+#39=IFCBOXEDHALFSPACE(#36,.T.,#38);
+#41=IFCBOOLEANRESULT(.DIFFERENCE.,#32,#39);
+#40=IFCCSGSOLID(#41);
+)"));
+  ASSERT_TRUE(cut.model);
+  EXPECT_EQ(cut.warnings, "");
+  EXPECT_NEAR(volume_m3(*cut.model), 3.0 * 2.0 - 1.0, 1e-4);
+  EXPECT_NEAR(bounds(*cut.model).max.x, 3.0f, 1e-4f);
+}
+
+TEST(IfcBodies, ExtrusionsGoAsFarAsTheirDepth) {
+  const ReadIfc slanted = read_text(one_object("IFCCOLUMN", R"(#30=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,1.,1.);
+#31=IFCDIRECTION((3.,0.,4.));
+#40=IFCEXTRUDEDAREASOLID(#30,#4,#31,5.);
+)"));
+  EXPECT_NEAR(volume_m3(*slanted.model), 4.0, 1e-4);
+  EXPECT_NEAR(bounds(*slanted.model).max.x, 3.5f, 1e-4f);
+  EXPECT_NEAR(bounds(*slanted.model).max.z, 4.0f, 1e-4f);
+}
+
+TEST(IfcBodies, AnglesWithoutAUnitAreRadiansUnlessTheyExceedAWholeTurn) {
+  const auto volume = [](const char* angle) {
+    return volume_m3(*read_text(one_object("IFCSLAB", fmt::format(R"(#30=IFCCARTESIANPOINT((2.,0.));
+#31=IFCAXIS2PLACEMENT2D(#30,$);
+#32=IFCRECTANGLEPROFILEDEF(.AREA.,$,#31,1.,1.);
+#33=IFCDIRECTION((0.,1.,0.));
+#34=IFCAXIS1PLACEMENT(#3,#33);
+#40=IFCREVOLVEDAREASOLID(#32,#4,#34,{});
+)",
+                                                                  angle)))
+                          .model);
+  };
+  constexpr double whole = 4.0 * std::numbers::pi;  // a ring of 1 m2 at 2 m
+  for (const auto& [angle, fraction] : {std::pair{"6.283185307179586", 1.0},
+                                        {"4.71238898038469", 0.75},
+                                        {"1.5707963267949", 0.25},
+                                        {"360.", 1.0},
+                                        {"270.", 0.75}})
+    EXPECT_NEAR(volume(angle), fraction * whole, 0.01 * whole) << angle;
+}
+
+TEST(IfcBodies, ProfilesThatIfcPlusPlusCannotDrawHaveTheirArea) {
+  const auto read = [](const std::string& profile) {
+    return read_text(one_object("IFCBEAM", profile + "#40=IFCEXTRUDEDAREASOLID(#30,#4,#10,2.);\n"));
+  };
+  const ReadIfc beam =
+      read(R"(#30=IFCASYMMETRICISHAPEPROFILEDEF(.AREA.,$,#31,0.4,0.3,0.01,0.02,$,0.2,0.03,$,$,$,$,$);
+#31=IFCAXIS2PLACEMENT2D(#32,$);
+#32=IFCCARTESIANPOINT((5.,0.));
+)");
+  EXPECT_NEAR(volume_m3(*beam.model), 2.0 * (0.4 * 0.02 + 0.2 * 0.03 + 0.25 * 0.01), 1e-6);
+  EXPECT_NEAR(bounds(*beam.model).min.x, 4.8f, 1e-4f);
+  const ReadIfc angle = read(R"(#31=IFCLSHAPEPROFILEDEF(.AREA.,$,$,2.,1.,.1,$,$,$);
+#30=IFCMIRROREDPROFILEDEF(.AREA.,$,#31,*,$);
+)");
+  EXPECT_NEAR(volume_m3(*angle.model), 2.0 * (2.0 * 0.1 + 0.9 * 0.1), 1e-6);
+  int corners_to_the_right = 0;
+  for (const Part& part : angle.model->parts)
+    for (const glm::vec3& corner : part.mesh.positions)
+      corners_to_the_right += corner.x > 0.3f && corner.y > 0.5f;
+  EXPECT_GT(corners_to_the_right, 0) << "its long leg stands to the right, unmirrored to the left";
+  const std::string path = R"(#31=IFCPOLYLINE((#32,#33,#34{}));
+#32=IFCCARTESIANPOINT((0.,0.));
+#33=IFCCARTESIANPOINT((4.,0.));
+#34=IFCCARTESIANPOINT((4.,3.));
+#30=IFCCENTERLINEPROFILEDEF(.AREA.,$,#31,0.2);
+)";
+  EXPECT_NEAR(volume_m3(*read(fmt::format(fmt::runtime(path), "")).model), 2.0 * 0.2 * (4.0 + 3.0), 1e-4);
+  EXPECT_NEAR(volume_m3(*read(fmt::format(fmt::runtime(path), ",#32")).model), 2.0 * 0.2 * (4.0 + 3.0 + 5.0),
+              1e-4)
+      << "a ring";
+}
+
+TEST(IfcBodies, FacesHaveHoles) {
+  const ReadIfc frame = read_text(
+      one_object("IFCPLATE", R"(#40=IFCPOLYGONALFACESET(#30,.T.,(#31,#32,#33,#34,#35,#36,#37,#38,#39,#41),$);
+#30=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(4.,0.,0.),(4.,4.,0.),(0.,4.,0.),(0.,0.,1.),(4.,0.,1.),(4.,4.,1.),(0.,4.,1.),(1.,1.,0.),(3.,1.,0.),(3.,3.,0.),(1.,3.,0.),(1.,1.,1.),(3.,1.,1.),(3.,3.,1.),(1.,3.,1.)));
+#31=IFCINDEXEDPOLYGONALFACEWITHVOIDS((4,3,2,1),((9,10,11,12)));
+#32=IFCINDEXEDPOLYGONALFACEWITHVOIDS((5,6,7,8),((16,15,14,13)));
+#33=IFCINDEXEDPOLYGONALFACE((1,2,6,5));
+#34=IFCINDEXEDPOLYGONALFACE((2,3,7,6));
+#35=IFCINDEXEDPOLYGONALFACE((3,4,8,7));
+#36=IFCINDEXEDPOLYGONALFACE((4,1,5,8));
+#37=IFCINDEXEDPOLYGONALFACE((9,13,14,10));
+#38=IFCINDEXEDPOLYGONALFACE((10,14,15,11));
+#39=IFCINDEXEDPOLYGONALFACE((11,15,16,12));
+#41=IFCINDEXEDPOLYGONALFACE((12,16,13,9));
+)"));
+  ASSERT_TRUE(frame.model);
+  EXPECT_NEAR(volume_m3(*frame.model), 12.0, 1e-4);
+}
+
+TEST(IfcBodies, FacesOfAdvancedBrepsAreBoundedByEdges) {
+  // A cylinder of 1 m and 2 m: two plane faces with a circle each, and one that a seam closes.
+  const std::string body = R"(#40=IFCADVANCEDBREP(#60);
+#60=IFCCLOSEDSHELL((#61,#62,#63));
+#64=IFCCARTESIANPOINT((1.,0.,0.));
+#65=IFCCARTESIANPOINT((1.,0.,2.));
+#66=IFCVERTEXPOINT(#64);
+#67=IFCVERTEXPOINT(#65);
+#68=IFCCARTESIANPOINT((0.,0.,2.));
+#69=IFCAXIS2PLACEMENT3D(#68,$,$);
+#70=IFCCIRCLE(#4,1.);
+#71=IFCCIRCLE(#69,1.);
+#72=IFCEDGECURVE(#66,#66,#70,.T.);
+#73=IFCEDGECURVE(#67,#67,#71,.T.);
+#74=IFCVECTOR(#10,2.);
+#75=IFCLINE(#64,#74);
+#76=IFCEDGECURVE(#66,#67,#75,.T.);
+#77=IFCORIENTEDEDGE(*,*,#72,.T.);
+#78=IFCORIENTEDEDGE(*,*,#72,.F.);
+#79=IFCORIENTEDEDGE(*,*,#73,.T.);
+#80=IFCORIENTEDEDGE(*,*,#73,.F.);
+#81=IFCORIENTEDEDGE(*,*,#76,.T.);
+#82=IFCORIENTEDEDGE(*,*,#76,.F.);
+#83=IFCEDGELOOP((#78));
+#84=IFCFACEOUTERBOUND(#83,.T.);
+#85=IFCPLANE(#4);
+#61=IFCADVANCEDFACE((#84),#85,.F.);
+#86=IFCEDGELOOP((#79));
+#87=IFCFACEOUTERBOUND(#86,.T.);
+#88=IFCPLANE(#69);
+#62=IFCADVANCEDFACE((#87),#88,.T.);
+#89=IFCEDGELOOP((#77,#81,#80,#82));
+#90=IFCFACEOUTERBOUND(#89,.T.);
+#91=IFCCYLINDRICALSURFACE(#4,1.);
+#63=IFCADVANCEDFACE((#90),#91,.T.);
+)";
+  const ReadIfc whole = read_text(one_object("IFCCOLUMN", body));
+  ASSERT_TRUE(whole.model);
+  EXPECT_EQ(whole.warnings, "");
+  EXPECT_NEAR(volume_m3(*whole.model), 2.0 * 24.0 * std::sin(std::numbers::pi / 24.0), 1e-4);
+  std::string other = body;
+  const std::string cylinder = "#91=IFCCYLINDRICALSURFACE(#4,1.);";
+  other.replace(other.find(cylinder), cylinder.size(), "#91=IFCSPHERICALSURFACE(#4,1.);");
+  const ReadIfc without_side = read_text(one_object("IFCCOLUMN", other));
+  EXPECT_NE(without_side.warnings.find("IfcSphericalSurface"), std::string::npos) << without_side.warnings;
+}
+
+TEST(IfcBodies, SpinesRunThroughTheirSectionsAndPipesRoundTheirCorners) {
+  const ReadIfc mast = read_text(one_object("IFCCOLUMN", R"(#30=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,2.,2.);
+#31=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,1.,1.);
+#32=IFCCARTESIANPOINT((0.,0.,3.));
+#33=IFCAXIS2PLACEMENT3D(#32,$,$);
+#34=IFCPOLYLINE((#3,#32));
+#35=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#34);
+#36=IFCCOMPOSITECURVE((#35),.F.);
+#40=IFCSECTIONEDSPINE(#36,(#30,#31),(#4,#33));
+)"));
+  ASSERT_TRUE(mast.model);
+  EXPECT_NEAR(volume_m3(*mast.model), 7.0, 1e-4) << "a truncated pyramid";
+  const ReadIfc pipe = read_text(one_object("IFCPIPESEGMENT", R"(#30=IFCCARTESIANPOINT((2.,0.,0.));
+#31=IFCCARTESIANPOINT((2.,2.,0.));
+#32=IFCPOLYLINE((#3,#30,#31));
+#40=IFCSWEPTDISKSOLIDPOLYGONAL(#32,0.05,$,$,$,1.);
+)"));
+  ASSERT_TRUE(pipe.model);
+  const double disk_m2 = 0.5 * 16.0 * std::sin(std::numbers::pi / 8.0) * 0.05 * 0.05;
+  EXPECT_NEAR(volume_m3(*pipe.model), disk_m2 * (2.0 + 0.5 * std::numbers::pi), 0.01 * disk_m2 * 3.57);
+}
+
 TEST(IfcBodies, WhatGivesNoSurfaceIsNamed) {
   const std::string good = R"(#30=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,2.,2.);
 #40=IFCEXTRUDEDAREASOLID(#30,#4,#10,3.);
@@ -146,6 +356,23 @@ TEST(IfcBodies, WhatGivesNoSurfaceIsNamed) {
   const ReadIfc house = read_text(one_object("IFCSLAB", good));
   EXPECT_NEAR(volume_m3(*house.model), 12.0, 1e-3);
   EXPECT_NE(house.warnings.find("IfcWall \"the lost one\" (#50)"), std::string::npos) << house.warnings;
+}
+
+TEST(IfcBodies, AFileWithoutAnySurfaceSaysOfWhatThereIsNone) {
+  const TestFolder folder;
+  Errors warnings;
+  const Result<Model> lost =
+      read_ifc(folder.write("one.ifc", one_object("IFCWALL",
+                                                  "#40=IFCSURFACEOFLINEAREXTRUSION(#41,#4,#10,2.);\n"
+                                                  "#41=IFCARBITRARYOPENPROFILEDEF(.CURVE.,$,#42);\n"
+                                                  "#42=IFCPOLYLINE((#3,#43));\n"
+                                                  "#43=IFCCARTESIANPOINT((2.,0.,0.));\n")),
+               warnings);
+  ASSERT_FALSE(lost);
+  const std::string said = to_string(lost.errors());
+  EXPECT_NE(said.find("IfcWall \"the one\" (#20)"), std::string::npos) << said;
+  EXPECT_NE(said.find("IfcSurfaceOfLinearExtrusion #40"), std::string::npos) << said;
+  EXPECT_NE(said.find("no object has a body that can be shown"), std::string::npos) << said;
 }
 
 TEST(IfcBodies, ObjectsAndUnknownEntitiesAreAccountedFor) {

@@ -185,10 +185,15 @@ Result<Model> read_ifc(const std::filesystem::path& file, Errors& warnings,
   if (!text) return text.errors();
   Result<IfcBodies> bodies = ifc_bodies(*std::move(text), file.string(), warnings);
   if (!bodies) return bodies.errors();
-  if (bodies->shapes.empty())
-    return error_at(
-        FileLocation{file.string(), 0, 0},
-        "no object has a body: export the building with its 3D geometry (representation \"Body\")");
+  if (bodies->shapes.empty()) {
+    Errors errors = std::move(warnings);  // of bodies that IFC++ makes nothing of
+    warnings.clear();
+    errors.push_back(error_at(FileLocation{file.string(), 0, 0}, "no object has a body{}",
+                              errors.empty()
+                                  ? ": export the building with its 3D geometry (representation \"Body\")"
+                                  : " that can be shown"));
+    return errors;
+  }
   IfcAssembly assembly(formats::model_stem(file));
   if (account) *account = std::move(bodies->account);
   bodies->place = on_map(bodies->place, map);

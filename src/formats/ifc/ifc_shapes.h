@@ -1,5 +1,6 @@
 // The bodies of an IFC file, as IFC++ builds them: all that is known of that library stands in its module
-// (ifcplusplus_module, ifc_styles, ifc_sweeps, ifc_textures, ifc_georeference, ifc_text).
+// (ifcplusplus_module, ifc_styles, ifc_arcs, ifc_breps, ifc_edge_loops, ifc_face_sets, ifc_primitives,
+// ifc_profiles, ifc_sweeps, ifc_textures, ifc_georeference, ifc_text).
 #pragma once
 
 #include <glm/glm.hpp>

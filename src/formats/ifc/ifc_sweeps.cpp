@@ -1,29 +1,21 @@
 #include "formats/ifc/ifc_sweeps.h"
 
 #include <ifcpp/IFC4/include/IfcAxis2Placement3D.h>
-#include <ifcpp/IFC4/include/IfcBoolean.h>
-#include <ifcpp/IFC4/include/IfcBooleanResult.h>
-#include <ifcpp/IFC4/include/IfcCartesianPoint.h>
-#include <ifcpp/IFC4/include/IfcClosedShell.h>
 #include <ifcpp/IFC4/include/IfcCompositeProfileDef.h>
 #include <ifcpp/IFC4/include/IfcDirection.h>
 #include <ifcpp/IFC4/include/IfcExtrudedAreaSolidTapered.h>
-#include <ifcpp/IFC4/include/IfcFace.h>
-#include <ifcpp/IFC4/include/IfcFaceOuterBound.h>
 #include <ifcpp/IFC4/include/IfcFacetedBrep.h>
 #include <ifcpp/IFC4/include/IfcFixedReferenceSweptAreaSolid.h>
-#include <ifcpp/IFC4/include/IfcLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcParameterValue.h>
 #include <ifcpp/IFC4/include/IfcPlane.h>
-#include <ifcpp/IFC4/include/IfcPolyLoop.h>
 #include <ifcpp/IFC4/include/IfcPolyline.h>
 #include <ifcpp/IFC4/include/IfcPositiveLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcReal.h>
-#include <ifcpp/IFC4/include/IfcRepresentation.h>
 #include <ifcpp/IFC4/include/IfcRevolvedAreaSolidTapered.h>
-#include <ifcpp/IFC4/include/IfcStyledItem.h>
+#include <ifcpp/IFC4/include/IfcSectionedSpine.h>
 #include <ifcpp/IFC4/include/IfcSurfaceCurveSweptAreaSolid.h>
 #include <ifcpp/IFC4/include/IfcSweptDiskSolid.h>
+#include <ifcpp/IFC4/include/IfcSweptDiskSolidPolygonal.h>
 #include <ifcpp/geometry/Carve/GeometryConverter.h>
 #include <ifcpp/model/BuildingModel.h>
 
@@ -31,64 +23,18 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <numbers>
-#include <unordered_map>
 #include <vector>
+
+#include "formats/ifc/ifc_breps.h"
+#include "formats/ifc/ifc_profiles.h"
 
 namespace parvis::scene {
 namespace {
 
 using glm::dvec2, glm::dvec3;
-using Ring = std::vector<dvec3>;
 
 constexpr double same_m = 1e-6;  // points of a path that lie nearer are one
 constexpr int disk_corners = 16;
-
-/// Plane faces: the first ring of each runs counter-clockwise seen from outside, the others are holes.
-using Faces = std::vector<std::vector<Ring>>;
-
-std::shared_ptr<IfcFacetedBrep> brep_of(const Faces& faces, double metres_per_unit) {
-  const auto shell = std::make_shared<IfcClosedShell>();
-  for (const std::vector<Ring>& rings : faces) {
-    const auto face = std::make_shared<IfcFace>();
-    for (const Ring& ring : rings) {
-      const auto loop = std::make_shared<IfcPolyLoop>();
-      for (const dvec3& corner : ring) {
-        const auto point = std::make_shared<IfcCartesianPoint>();
-        for (int axis = 0; axis < 3; ++axis)
-          point->m_Coordinates.push_back(std::make_shared<IfcLengthMeasure>(corner[axis] / metres_per_unit));
-        loop->m_Polygon.push_back(point);
-      }
-      const std::shared_ptr<IfcFaceBound> bound =
-          face->m_Bounds.empty() ? std::make_shared<IfcFaceOuterBound>() : std::make_shared<IfcFaceBound>();
-      bound->m_Bound = loop;
-      bound->m_Orientation = std::make_shared<IfcBoolean>(true);
-      face->m_Bounds.push_back(bound);
-    }
-    shell->m_CfsFaces.push_back(face);
-  }
-  auto brep = std::make_shared<IfcFacetedBrep>();
-  brep->m_Outer = shell;
-  return brep;
-}
-
-/// The side between two rings of the same number of corners, the first below the second where they run
-/// counter-clockwise seen from above. Plane where the rings are; else of triangles.
-void add_side(const Ring& below, const Ring& above, bool is_plane, Faces& faces) {
-  for (std::size_t i = 0; i < below.size(); ++i) {
-    const std::size_t next = (i + 1) % below.size();
-    if (is_plane) {
-      faces.push_back({{below[i], below[next], above[next], above[i]}});
-      continue;
-    }
-    faces.push_back({{below[i], below[next], above[next]}});
-    faces.push_back({{below[i], above[next], above[i]}});
-  }
-}
-
-Ring reversed(Ring ring) {
-  std::ranges::reverse(ring);
-  return ring;
-}
 
 /// Points of a path that are not the one before.
 std::vector<dvec3> without_repeats(const std::vector<dvec3>& path) {
@@ -145,10 +91,6 @@ Faces disk_faces(const std::vector<dvec3>& path, double radius, double inner_rad
   return faces;
 }
 
-double value_of(const std::shared_ptr<IfcPositiveLengthMeasure>& length, double unit_m) {
-  return length && std::isfinite(length->m_value) ? length->m_value * unit_m : 0.0;
-}
-
 /// The part of a polyline between two parameters, which count its points.
 std::vector<dvec3> trimmed(const std::vector<dvec3>& path, double from, double to) {
   const double last = double(path.size() - 1);
@@ -179,35 +121,44 @@ std::vector<dvec3> path_of(const std::shared_ptr<IfcCurve>& directrix,
   return path.size() < 2 ? std::vector<dvec3>() : path;
 }
 
+/// A polyline with arcs of a radius in place of its corners, as far as they fit between its points.
+std::vector<dvec3> rounded(const std::vector<dvec3>& path, double radius) {
+  constexpr int chords_per_right_angle = 6;
+  std::vector<dvec3> points{path.front()};
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+    const dvec3 in = glm::normalize(path[i] - path[i - 1]), out = glm::normalize(path[i + 1] - path[i]);
+    const double turn = std::acos(std::clamp(glm::dot(in, out), -1.0, 1.0));
+    const double cut = radius * std::tan(0.5 * turn);
+    const bool fits = turn > same_m && cut < glm::distance(path[i], path[i - 1]) &&
+                      cut < glm::distance(path[i + 1], path[i]);
+    if (!fits) {
+      points.push_back(path[i]);
+      continue;
+    }
+    const dvec3 across = glm::normalize(out - in * glm::dot(in, out));
+    const dvec3 first = path[i] - cut * in, middle = first + radius * across;
+    const int chords = std::max(1, int(std::ceil(turn / (0.5 * std::numbers::pi) * chords_per_right_angle)));
+    for (int k = 0; k <= chords; ++k) {
+      const double angle = turn * k / chords;
+      points.push_back(middle + radius * (std::sin(angle) * in - std::cos(angle) * across));
+    }
+  }
+  points.push_back(path.back());
+  return without_repeats(points);
+}
+
 std::shared_ptr<IfcFacetedBrep> body_of(const IfcSweptDiskSolid& solid, RepresentationConverter& converter,
                                         double unit_m, std::string& problem) {
-  const std::vector<dvec3> path = path_of(solid.m_Directrix, solid.m_StartParam, solid.m_EndParam, converter);
-  const double radius = value_of(solid.m_Radius, unit_m), inner = value_of(solid.m_InnerRadius, unit_m);
+  std::vector<dvec3> path = path_of(solid.m_Directrix, solid.m_StartParam, solid.m_EndParam, converter);
+  if (const auto* polygonal = dynamic_cast<const IfcSweptDiskSolidPolygonal*>(&solid))
+    if (const double fillet = metres_of(polygonal->m_FilletRadius, unit_m); fillet > 0.0 && !path.empty())
+      path = rounded(path, fillet);
+  const double radius = metres_of(solid.m_Radius, unit_m), inner = metres_of(solid.m_InnerRadius, unit_m);
   if (path.empty() || !(radius > 0.0) || inner >= radius) {
     problem = "its path has no length, or its radii are no tube";
     return nullptr;
   }
   return brep_of(disk_faces(path, radius, inner), unit_m);
-}
-
-/// The rings of a profile, the outer one counter-clockwise, the others clockwise.
-std::vector<std::vector<dvec2>> rings_of(std::shared_ptr<IfcProfileDef> profile,
-                                         RepresentationConverter& converter) {
-  std::vector<std::vector<dvec2>> rings;
-  const auto converted = converter.getProfileCache()->getProfileConverter(profile);
-  if (!converted) return rings;
-  for (const std::vector<vec2>& path : converted->getCoordinates()) {
-    std::vector<dvec2>& ring = rings.emplace_back();
-    for (const vec2& point : path) ring.emplace_back(point.x, point.y);
-    while (ring.size() > 1 && glm::distance(ring.front(), ring.back()) < same_m) ring.pop_back();
-    double area = 0.0;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const dvec2 a = ring[i], b = ring[(i + 1) % ring.size()];
-      area += a.x * b.y - a.y * b.x;
-    }
-    if ((area > 0.0) != (rings.size() == 1)) std::ranges::reverse(ring);
-  }
-  return rings;
 }
 
 dvec3 vector_of(const std::shared_ptr<IfcDirection>& direction) {
@@ -256,7 +207,7 @@ void add_prism(const std::vector<std::vector<dvec2>>& from, const std::vector<st
 /// How far an extrusion goes, metres; zero where the file does not say.
 dvec3 extrusion_of(const IfcExtrudedAreaSolid& solid, double unit_m) {
   const dvec3 along = vector_of(solid.m_ExtrudedDirection);
-  return along * value_of(solid.m_Depth, unit_m) / std::max(glm::length(along), 1e-12);
+  return along * metres_of(solid.m_Depth, unit_m) / std::max(glm::length(along), 1e-12);
 }
 
 std::shared_ptr<IfcFacetedBrep> body_of(const IfcExtrudedAreaSolidTapered& solid,
@@ -288,6 +239,69 @@ std::shared_ptr<IfcFacetedBrep> body_of_several(const IfcExtrudedAreaSolid& soli
     if (const auto rings = rings_of(profile, converter); !rings.empty())
       add_prism(rings, rings, along, true, placed, faces);
   return faces.empty() ? nullptr : brep_of(faces, unit_m);
+}
+
+/// Lets the extrusion go as far as its depth says: IFC++ multiplies it by the length of the direction.
+void set_unit_direction(IfcExtrudedAreaSolid& solid) {
+  const dvec3 along = vector_of(solid.m_ExtrudedDirection);
+  const double length = glm::length(along);
+  if (!(length > 0.0) || std::abs(length - 1.0) < 1e-9) return;
+  const auto unit = std::make_shared<IfcDirection>(solid.m_ExtrudedDirection->m_entity_id);
+  for (int axis = 0; axis < 3; ++axis)
+    unit->m_DirectionRatios.push_back(std::make_shared<IfcReal>(along[axis] / length));
+  solid.m_ExtrudedDirection = unit;
+}
+
+/// Twice the area of a plane ring, along its normal.
+dvec3 facing(const Ring& ring) {
+  dvec3 sum(0.0);
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+    sum += glm::cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
+  return sum;
+}
+
+/// Cross sections at their places, with straight sides between. Null where they are not of one kind.
+std::shared_ptr<IfcFacetedBrep> body_of(const IfcSectionedSpine& spine, RepresentationConverter& converter,
+                                        double unit_m, std::string& problem) {
+  std::vector<std::vector<Ring>> sections;
+  for (std::size_t i = 0; i < std::min(spine.m_CrossSections.size(), spine.m_CrossSectionPositions.size());
+       ++i) {
+    std::shared_ptr<TransformData> position;
+    if (spine.m_CrossSectionPositions[i])
+      converter.getPlacementConverter()->convertIfcAxis2Placement3D(spine.m_CrossSectionPositions[i],
+                                                                    position);
+    std::vector<Ring>& section = sections.emplace_back();
+    if (!spine.m_CrossSections[i]) continue;
+    for (const Outline& ring : rings_of(spine.m_CrossSections[i], converter)) {
+      Ring& placed = section.emplace_back();
+      for (const dvec2& point : ring) {
+        const vec3 at = carve::geom::VECTOR(point.x, point.y, 0.0);
+        const vec3 there = position ? position->m_matrix * at : at;
+        placed.emplace_back(there.x, there.y, there.z);
+      }
+    }
+  }
+  const auto is_like_first = [&](const std::vector<Ring>& section) {
+    return std::ranges::equal(section, sections.front(), [](const Ring& a, const Ring& b) {
+      return a.size() == b.size() && a.size() >= 3;
+    });
+  };
+  if (sections.size() < 2 || sections.front().empty() || !std::ranges::all_of(sections, is_like_first)) {
+    problem = "its cross sections are not of one kind";
+    return nullptr;
+  }
+  const Ring& first = sections.front().front();
+  if (glm::dot(sections[1].front().front() - first.front(), facing(first)) < 0.0)  // the spine runs down
+    for (std::vector<Ring>& section : sections)
+      for (Ring& ring : section) ring = reversed(ring);
+  Faces faces;
+  std::vector<Ring> bottom;
+  for (std::size_t k = 0; k + 1 < sections.size(); ++k)
+    for (std::size_t r = 0; r < sections[k].size(); ++r)
+      add_side(sections[k][r], sections[k + 1][r], false, faces);
+  for (const Ring& ring : sections.front()) bottom.push_back(reversed(ring));
+  faces.push_back(std::move(bottom)), faces.push_back(sections.back());
+  return brep_of(faces, unit_m);
 }
 
 /// A profile swept along a curve, its x axis towards `reference`, in the solid's frame.
@@ -339,19 +353,12 @@ std::shared_ptr<IfcFacetedBrep> body_of(const IfcSurfaceCurveSweptAreaSolid& sol
   return body_along(solid, path, given == dvec3(0.0) ? dvec3(0, 0, 1) : given, converter, unit_m, problem);
 }
 
-/// Puts other bodies in the place of some wherever a body can stand.
-template <class Pointer, class Replacements>
-void put_in(Pointer& place, const Replacements& replacements) {
-  const auto* item = dynamic_cast<const BuildingEntity*>(place.get());
-  if (const auto found = replacements.find(item); item && found != replacements.end()) place = found->second;
-}
-
 }  // namespace
 
 void replace_sweeps(BuildingModel& building, RepresentationConverter& converter,
                     const std::function<void(int, const std::string&)>& complain) {
   const double unit_m = building.getUnitConverter()->getLengthInMeterFactor();
-  std::unordered_map<const BuildingEntity*, std::shared_ptr<IfcFacetedBrep>> replacements;
+  ReplacedBodies replaced;
   for (const auto& [id, entity] : building.getMapIfcEntities()) {
     std::string problem;
     std::shared_ptr<IfcFacetedBrep> body;
@@ -360,8 +367,10 @@ void replace_sweeps(BuildingModel& building, RepresentationConverter& converter,
         body = body_of(*disk, converter, unit_m, problem);
       else if (const auto* tapered = dynamic_cast<const IfcExtrudedAreaSolidTapered*>(entity.get()))
         body = body_of(*tapered, converter, unit_m, problem);
-      else if (const auto* extruded = dynamic_cast<const IfcExtrudedAreaSolid*>(entity.get()))
-        body = body_of_several(*extruded, converter, unit_m);
+      else if (auto* extruded = dynamic_cast<IfcExtrudedAreaSolid*>(entity.get()))
+        set_unit_direction(*extruded), body = body_of_several(*extruded, converter, unit_m);
+      else if (const auto* spine = dynamic_cast<const IfcSectionedSpine*>(entity.get()))
+        body = body_of(*spine, converter, unit_m, problem);
       else if (const auto* fixed = dynamic_cast<const IfcFixedReferenceSweptAreaSolid*>(entity.get()))
         body = body_of(*fixed, converter, unit_m, problem);
       else if (const auto* on_surface = dynamic_cast<const IfcSurfaceCurveSweptAreaSolid*>(entity.get()))
@@ -372,21 +381,9 @@ void replace_sweeps(BuildingModel& building, RepresentationConverter& converter,
       problem = failure.what();
     }
     if (!problem.empty()) complain(id, problem);
-    if (!body) continue;
-    const auto* item = dynamic_cast<const IfcRepresentationItem*>(entity.get());
-    body->m_entity_id = id;
-    body->m_StyledByItem_inverse = item->m_StyledByItem_inverse;
-    body->m_LayerAssignment_inverse = item->m_LayerAssignment_inverse;
-    replacements.emplace(entity.get(), body);
+    if (body) replaced.add(*entity, body);
   }
-  if (replacements.empty()) return;
-  for (const auto& [id, entity] : building.getMapIfcEntities()) {
-    if (auto* representation = dynamic_cast<IfcRepresentation*>(entity.get()))
-      for (auto& item : representation->m_Items) put_in(item, replacements);
-    if (auto* result = dynamic_cast<IfcBooleanResult*>(entity.get()))
-      put_in(result->m_FirstOperand, replacements), put_in(result->m_SecondOperand, replacements);
-    if (auto* styled = dynamic_cast<IfcStyledItem*>(entity.get())) put_in(styled->m_Item, replacements);
-  }
+  replaced.put_into(building);
 }
 
 }  // namespace parvis::scene

@@ -33,6 +33,10 @@
 #include "formats/ifc/ifc_4x3.h"
 #include "formats/ifc/ifc_arcs.h"
 #include "formats/ifc/ifc_curves.h"
+#include "formats/ifc/ifc_edge_loops.h"
+#include "formats/ifc/ifc_face_sets.h"
+#include "formats/ifc/ifc_primitives.h"
+#include "formats/ifc/ifc_profiles.h"
 #include "formats/ifc/ifc_styles.h"
 #include "formats/ifc/ifc_sweeps.h"
 #include "formats/ifc/ifc_text.h"
@@ -409,11 +413,19 @@ Result<IfcBodies> bodies_of(std::string text, const std::string& name, Errors& w
     settings.setNumVerticesPerCircleGivenRadius([](double radius) {
       return radius < small_circle_m ? corners_of_small_circle : corners_of_large_circle;
     });
+    settle_unit_of_angles(*building);
     replace_arcs(*building, *converter.getRepresentationConverter());
+    replace_profiles(*building, *converter.getRepresentationConverter());
+    replace_face_sets(*building);
+    replace_edge_loops(*building, *converter.getRepresentationConverter(),
+                       [&](int id, const std::string& problem) {
+                         complaints.add(*building->getMapIfcEntities().at(id), problem);
+                       });
     replace_sweeps(*building, *converter.getRepresentationConverter(),
                    [&](int id, const std::string& problem) {
                      complaints.add(*building->getMapIfcEntities().at(id), problem);
                    });
+    replace_primitives(*building, *converter.getRepresentationConverter());
     converter.convertGeometry();
     warn_of_coloured_faces(*building, complaints);
     IfcTextures textures(*building, [&](const std::string& message) { complaints.add(message); });

@@ -21,6 +21,7 @@
 #include "base/image_io.h"
 #include "base/isolated_process.h"
 #include "formats/meshes/far_vertices.h"
+#include "formats/meshes/file_frame.h"
 #include "formats/meshes/polygon_ears.h"
 #include "formats/meshes/text_account.h"
 #include "formats/readers/local_origin.h"
@@ -67,14 +68,12 @@ class Converter {
       : file_(file), source_(source), account_(account), warnings_(warnings) {}
 
   /// `origin`: taken off already, in the model's axes.
-  Result<Model> convert(bool is_y_up, glm::dvec3 origin) {
+  Result<Model> convert(const glm::dmat4& model_from_root, glm::dvec3 origin) {
     model_.name = file_.stem().string();
     for (unsigned i = 0; i < source_.mNumMaterials; ++i) add_material(*source_.mMaterials[i]);
     if (model_.materials.empty()) model_.materials.push_back({});
-    glm::dmat4 z_up(1.0);  // an exchange of coordinates: exact
-    if (is_y_up) z_up[1] = {0.0, 0.0, 1.0, 0.0}, z_up[2] = {0.0, -1.0, 0.0, 0.0};
-    find_origin(z_up);
-    if (Status status = add_nodes(z_up); !status) return status.errors();
+    find_origin(model_from_root);
+    if (Status status = add_nodes(model_from_root); !status) return status.errors();
     if (model_.parts.empty()) return nothing_drawn();
     model_.origin += origin;
     count_others();
@@ -141,9 +140,9 @@ class Converter {
 
   /// Finds the origin of coordinates that assimp has read itself, in single precision. Nodes are few: the
   /// meshes' own boxes count.
-  void find_origin(const glm::dmat4& z_up) {
+  void find_origin(const glm::dmat4& model_from_root) {
     glm::dvec3 low(std::numeric_limits<double>::max()), high(-low);
-    std::ignore = each_node(z_up, [&](const aiNode& node, const glm::dmat4& model_from_node) {
+    std::ignore = each_node(model_from_root, [&](const aiNode& node, const glm::dmat4& model_from_node) {
       for (unsigned i = 0; i < node.mNumMeshes; ++i) {
         const aiMesh& mesh = *source_.mMeshes[node.mMeshes[i]];
         for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
@@ -390,7 +389,7 @@ struct FarFile {
 
 FarFile brought_near(const fs::path& file, const std::string& extension, formats::UpAxis up,
                      FileAccount& account) {
-  const bool is_z_up_format = extension == ".ply" || extension == ".stl";
+  const bool is_z_up_format = extension == ".ply" || extension == ".stl" || extension == ".3mf";
   FarFile near{
       {}, glm::dvec3(0.0), up == formats::UpAxis::y || (up == formats::UpAxis::file && !is_z_up_format)};
   const Result<std::string> bytes = read_file(file);
@@ -411,6 +410,13 @@ FarFile brought_near(const fs::path& file, const std::string& extension, formats
   const glm::dvec3 o = near.origin, in_file = near.is_y_up ? glm::dvec3(o.x, o.z, -o.y) : o;
   if (in_file != glm::dvec3(0.0)) near.bytes = moved_vertices(read, extension, in_file);
   return near;
+}
+
+/// The bytes of a file whose unit stands in its archive; of others none.
+std::string bytes_of_archive(const fs::path& file, const std::string& extension) {
+  if (extension != ".3mf") return {};
+  Result<std::string> bytes = read_file(file);
+  return bytes ? *std::move(bytes) : std::string();
 }
 
 /// The format's name as its users know it.
@@ -440,7 +446,9 @@ Result<formats::FileContent> read(const fs::path& file, formats::UpAxis up, Erro
       return error_at(where, "claims more vertices or faces than there is memory for; the file is damaged");
     if (!scene || !scene->mRootNode)
       return error_at(where, "cannot be read as a model ({})", importer.GetErrorString());
-    Result<Model> model = Converter(file, *scene, account, warnings).convert(near.is_y_up, near.origin);
+    const glm::dmat4 frame =
+        model_from_file(*scene, extension, bytes_of_archive(file, extension), up, near.is_y_up, account);
+    Result<Model> model = Converter(file, *scene, account, warnings).convert(frame, near.origin);
     if (model) return formats::FileContent{*std::move(model), std::move(account)};
     return Error{model.errors().front().message, where};
   } catch (const std::exception& problem) {

@@ -1,5 +1,6 @@
 #include "formats/readers/plain_account.h"
 
+#include <algorithm>
 #include <set>
 
 #include "formats/readers/local_origin.h"
@@ -11,7 +12,9 @@ void count_what_is_shown(const scene::Model& model, scene::FileAccount& account)
   for (const scene::Part& part : model.parts) objects.insert(part.object);
   account.used("objects", objects.size());
   account.used("triangles", model.triangle_count());
-  account.used("images", model.textures.size());
+  const std::size_t counted =  // by the reader, which knows those that a checker stands for
+      account.count(scene::Fate::used, "images") + account.count(scene::Fate::left_out, "images");
+  account.used("images", model.textures.size() - std::min(counted, model.textures.size()));
   account.used("animations", model.animations.size());
   account.used("roads", model.roads.size());
   note_origin(model.origin, model.map, account);

@@ -11,7 +11,7 @@ namespace parvis::formats {
 /// `format` as in scene::FileAccount. Errors of `model` are passed on.
 Result<FileContent> with_plain_account(std::string format, Result<scene::Model> model);
 
-/// Counts the same into an account that says more.
+/// Counts the same into an account that says more, images as far as it has not counted them.
 void count_what_is_shown(const scene::Model& model, scene::FileAccount& account);
 
 }  // namespace parvis::formats

@@ -42,6 +42,18 @@ TEST(Readers, AreFoundByExtensionInAnyCase) {
     EXPECT_NE(unknown.find(expected), std::string::npos) << unknown;
 }
 
+TEST(Readers, PicturesThatAReaderHasCountedAreCountedOnce) {
+  scene::Model model;
+  model.textures.resize(3);
+  scene::FileAccount account("letters");
+  account.used("images"), account.left_out("images", "a checker stands for them", "lost.png");
+  count_what_is_shown(model, account);
+  EXPECT_EQ(account.count(scene::Fate::used, "images"), 2u);
+  EXPECT_EQ(account.count(scene::Fate::left_out, "images"), 1u);
+  const Result<FileContent> plain = with_plain_account("letters", model);
+  EXPECT_EQ(plain->account.count(scene::Fate::used, "images"), 3u);
+}
+
 TEST(Readers, TheModelCarriesTheAccountAndItsShortFormIsAWarning) {
   const TestFolder folder;
   Readers readers;
