@@ -133,8 +133,8 @@ void Planning::compare_with_next() {
   if (compared_.empty()) return;
   std::array<int, 4> counts{};
   for (const design::Difference& each : differences()) ++counts[std::size_t(each.how)];
-  visit_.notice(fmt::format("{} -> {}: +{} -{}, {} moved, {} changed", compared_, desk_->session.name(),
-                            counts[0], counts[1], counts[2], counts[3]));
+  visit_.notice(fmt::format("{} -> {}: +{} -{}, {} {}, {} {}", compared_, desk_->session.name(), counts[0],
+                            counts[1], counts[2], word("moved"), counts[3], word("changed")));
 }
 
 bool Planning::compares_pictures() const {

@@ -50,6 +50,19 @@ TEST_F(JournalTest, WhatWasNotSavedIsThereAgainAndCanBeUndone) {
   EXPECT_EQ(session_->script(), "");
 }
 
+TEST_F(JournalTest, OneAloneWritesIt) {
+  open();
+  keep();
+  run("insert bench_stone 1,2");
+  const std::string kept = *read_file(file());
+  const Result<Journal> second = Journal::lock(file());
+  ASSERT_FALSE(second);
+  EXPECT_NE(second.errors().front().message.find("close it there"), std::string::npos);
+  EXPECT_EQ(*read_file(file()), kept);
+  session_.reset();
+  EXPECT_TRUE(Journal::lock(file())) << "a program that has ended holds nothing";
+}
+
 TEST_F(JournalTest, ASavedDesignOpensWithItsSteps) {
   open();
   keep();

@@ -49,6 +49,14 @@ TEST_F(OwnKindTest, AModelIsPlacedInItsOwnSizeWithItsFootOnTheGround) {
   EXPECT_EQ(session_->objects().size(), 1u) << "the kind itself is no object";
 }
 
+TEST_F(OwnKindTest, TheSameModelOnceMoreIsTheSameFile) {
+  const std::filesystem::path file = box("seat.obj", 1, 1, 1);
+  EXPECT_EQ(import(file)->command.file, "kinds/seat.glb");
+  EXPECT_EQ(import(file)->command.file, "kinds/seat.glb");
+  box("seat.obj", 2, 1, 1);
+  EXPECT_EQ(import(file)->command.file, "kinds/seat_2.glb") << "another model of the name";
+}
+
 TEST_F(OwnKindTest, TheKindGoesWithItsStepAndIsInTheScript) {
   take(box("seat.obj", 1, 1, 1));
   EXPECT_NE(session_->script().find("kind(name=seat, file=kinds/seat.glb"), std::string::npos)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/colour.h"
+#include "base/files.h"
 #include "planning/design/design_file.h"
 #include "planning/design/shape_models.h"
 #include "planning/design/test_design.h"
@@ -81,6 +82,30 @@ TEST_F(DesignTest, IsWrittenBesideASceneThatIsNamedWithoutAFolder) {
   EXPECT_TRUE(written) << to_string(written.errors());
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "design.xp"));
   EXPECT_FALSE(elsewhere);
+}
+
+TEST_F(DesignTest, IsWrittenOverNothingElse) {
+  const std::filesystem::path script = folder_.write("scene.xp", "// Mine\ncamera(name=eye)\n"),
+                              other = folder_.write("other.xp", "camera(name=another)\n");
+  open();
+  run("insert bench_stone 0,0");
+  EXPECT_FALSE(save(*session_, script, other));
+  EXPECT_EQ(*read_file(other), "camera(name=another)\n");
+  const Status written = save(*session_, script, script);
+  ASSERT_TRUE(written) << to_string(written.errors());
+  const std::string text = *read_file(script);
+  EXPECT_TRUE(text.starts_with("// Mine\ncamera(name=eye)\n")) << "behind all else: " << text;
+  EXPECT_NE(text.find("bench_stone_1"), std::string::npos);
+}
+
+TEST_F(DesignTest, NamesOfGroupsAndWordsOfCommandsAreKnown) {
+  open();
+  run("row umbrella from 0,0 to 12,0 count 3");
+  run("group umbrella_1,umbrella_2 as suns");
+  run("ungroup suns");
+  EXPECT_EQ(object("umbrella_1").group, "");
+  EXPECT_NE(refusal("insert bin 0,5 name selected").find("word of commands"), std::string::npos);
+  EXPECT_NE(refusal("surface paving 0,0 4,0 0,4 4,4").find("crosses itself"), std::string::npos);
 }
 
 TEST_F(DesignTest, CommandsChangeWhatTheySay) {

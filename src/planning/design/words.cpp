@@ -179,6 +179,8 @@ constexpr auto french = std::to_array<std::pair<std::string_view, std::string_vi
     {"toward a sketch, toward a photograph", "vers le croquis, vers la photo"},
     {"Esc once more closes the window; what was done is kept",
      "Échap encore une fois ferme la fenêtre ; ce qui est fait est gardé"},
+    {"moved", "déplacés"},
+    {"changed", "modifiés"},
     {"Together", "Ensemble"},
     {"Align x", "Aligner x"},
     {"Align y", "Aligner y"},
