@@ -160,9 +160,12 @@ void Stage::follow_clock(double frame_ms) {
   const double budget_ms =
       own_ms > 0.0 && held_ms > 0.0 ? std::min(own_ms, held_ms) : std::max(own_ms, held_ms);
   scale_.frame_took(goes_by_frames ? frame_ms : update_ms + rest_ms, budget_ms);
-  // Fewer pixels come first: they make all of the frame cheaper. Reflections are lowered where none are left.
-  constexpr double reflections_share = 0.3;  // of a held frame
-  reflections_->hold(held_ms > 0.0 && scale_.is_smallest() ? reflections_share * budget_ms : own_ms);
+  shared_.frame_took(frame_ms, held_ms > 0.0 ? budget_ms : 0.0, scale_.is_smallest());
+  constexpr double reflections_share = 0.3;  // of a held frame with as few pixels as there can be
+  reflections_->hold(held_ms > 0.0 && scale_.is_smallest()
+                         ? reflections_share * shared_.share(Lowered::reflections) * budget_ms
+                         : own_ms);
+  simulation_.clock.set_detail(float(shared_.share(Lowered::people)));
 }
 
 /// Then pictures in motion have one sample per pixel: a GPU has several for little.
@@ -235,6 +238,7 @@ void Stage::refine(const Camera& camera, int width, int height) {
   if (!refinement_) {
     const glm::ivec2 size(width, height);
     reflections_->hold(double(methods::settings(simulation_.scene).budget_ms));
+    simulation_.clock.set_detail(1.0f);
     if (renderer_->has_one_sample() || size != glm::ivec2(renderer_->width(), renderer_->height()))
       return draw(camera, size, size);
     if (has_lines) return;
@@ -266,6 +270,7 @@ Image8 Stage::whole_picture() {
   const glm::ivec2 size(width_, height_);
   if (refined_samples_ == 0 && size != glm::ivec2(renderer_->width(), renderer_->height())) {
     reflections_->hold(double(methods::settings(simulation_.scene).budget_ms));
+    simulation_.clock.set_detail(1.0f);
     draw(Camera(drawn_from_), size, size);
   }
   return picture();

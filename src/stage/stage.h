@@ -24,6 +24,7 @@
 #include "scene/action/scene_clock.h"
 #include "scene/script/scene_loader.h"
 #include "stage/scene_camera.h"
+#include "stage/shared_budget.h"
 #include "stage/shown_radiance.h"
 
 namespace parvis::stage {
@@ -99,6 +100,9 @@ class Stage {
   /// of the passes; on a software renderer, which times the passes of few frames, by `frame_ms`: what the
   /// last frame took by the clock, all of it. For windows: the result depends on the machine.
   void follow_clock(double frame_ms);
+  /// The shares of pixels, reflections, people and sound that are left so that frames hold their budget;
+  /// `follow_clock` lowers the first three itself.
+  const SharedBudget& shared_budget() const { return shared_; }
   /// The fraction of the last frame's displayed pixels that was drawn.
   double drawn_share() const;
 
@@ -170,6 +174,7 @@ class Stage {
   gl::PassTimes pass_times_;
   double held_ms_ = 0.0;  ///< 0: no rate is held
   render::PictureScale scale_;
+  SharedBudget shared_;
   Camera drawn_from_;  ///< the last frame
   int width_ = 0, height_ = 0;
   ShownRadiance refined_;

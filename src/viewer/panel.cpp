@@ -260,6 +260,14 @@ void Panel::draw_statistics(Visit& visit, const FrameStatistics& statistics) {
   for (const gl::PassTime& pass : statistics.passes_on_processor())
     rows_.value(pass.name, fmt::format("{:.2f} ms", 1000.0 * pass.seconds));
 
+  const stage::SharedBudget& budget = visit.stage().shared_budget();
+  rows_.heading("Lowered to hold the rate, in this order");
+  rows_.value("Pixels", fmt::format("{:.0f} % drawn", 100.0 * visit.stage().drawn_share()));
+  for (const auto& [name, what] : {std::pair{"Reflections", stage::Lowered::reflections},
+                                   {"People", stage::Lowered::people},
+                                   {"Sound", stage::Lowered::sound}})
+    rows_.value(name, fmt::format("{:.0f} %", 100.0 * budget.share(what)));
+
   const render::DrawStatistics& drawn = visit.stage().renderer().statistics();
   rows_.heading("Main view");
   rows_.value("Triangles", fmt::format("{}", drawn.triangles));

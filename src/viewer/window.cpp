@@ -169,6 +169,7 @@ class Frames {
       feeling_.step(visit_, planning_, controls, stood, seconds, devices_ ? &*devices_ : nullptr);
       if (study_) study_->add_frame(double(seconds));
       const Clock::time_point listened = Clock::now();
+      hearing_.set_share(visit_.stage().shared_budget().share(stage::Lowered::sound));
       hear(double(seconds));
       statistics_.add_on_processor(std::array{pass_of("people, traffic, events", stepped, moved),
                                               pass_of("sound", listened, Clock::now())});

@@ -6,7 +6,9 @@ namespace parvis::viewer {
 namespace {
 
 constexpr double update_s = 1.0 / 15.0;  // between two updates; playback glides from one to the next
-constexpr double patience_s = 3.0;       // without an answer the server is gone
+constexpr std::size_t max_voices_when_lowered =
+    48;                             // of which a share is left where frames are over their budget
+constexpr double patience_s = 3.0;  // without an answer the server is gone
 constexpr std::string_view server_scheme = "osc://";
 
 }  // namespace
@@ -52,7 +54,7 @@ std::string Hearing::take_message() {
 void Hearing::step(const scene::Scene& scene, const Camera& ears, double time_s, double passed_s) {
   if (device_ == "off") return;
   waited_s_ += passed_s;
-  if (waited_s_ < update_s) return;
+  if (waited_s_ < update_s / share_) return;
   if (!listening_) {
     if (!found_.valid()) {
       if (sound::beds_of(scene).empty() && sound::SceneSounds().at(scene, 0.0).empty()) return;
@@ -66,6 +68,7 @@ void Hearing::step(const scene::Scene& scene, const Camera& ears, double time_s,
   }
   std::vector<sound::HeardSound> heard = listening_->heard(scene, ears, time_s, waited_s_);
   sounds_ = listening_->sources();
+  if (share_ < 1.0) sound::keep_loudest(heard, std::size_t(share_ * double(max_voices_when_lowered)));
   if (server_) tell_server(heard, time_s);
   if (playback_) {
     playback_->mute(is_muted_);

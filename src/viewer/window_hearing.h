@@ -27,6 +27,8 @@ class Hearing {
   bool is_on() const { return listening_ != nullptr; }
   bool is_muted() const { return is_muted_; }
   void mute(bool is_muted) { is_muted_ = is_muted; }
+  /// The share of what is usually heard, 0 to 1: of the voices the loudest, brought up to date less often.
+  void set_share(double share) { share_ = share; }
   /// How many sounds are heard.
   std::size_t sounds() const { return sounds_; }
   /// The cost of mixing; nothing where a server mixes.
@@ -47,6 +49,7 @@ class Hearing {
   bool is_muted_ = false, is_server_lost_ = false;
   std::string message_;
   std::size_t sounds_ = 0;
+  double share_ = 1.0;
 };
 
 }  // namespace parvis::viewer

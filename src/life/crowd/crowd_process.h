@@ -35,6 +35,9 @@ class CrowdProcess final : public action::Process {
     if (generated_)
       generated_->adapt(scene, eyes, [this](std::size_t p) { return bodies_[p].posture_at(shown_part_); });
   }
+  void set_detail(float share) override {
+    if (generated_) generated_->set_detail(share);
+  }
 
   /// The crowd after `begin`; null where nobody walks.
   const Crowd* crowd() const { return crowd_ ? &*crowd_ : nullptr; }

@@ -124,6 +124,20 @@ TEST_F(GeneratedPeople, AreFineWhereTheEyeIsNearAndEachIsShownOnce) {
     EXPECT_FALSE(far->people[p].is_shown) << "hidden with the crowd: " << p;
 }
 
+TEST_F(GeneratedPeople, AreCoarserWhereAWindowCannotHoldItsRate) {
+  begin(30);
+  advance(10);
+  const glm::vec3 eye = glm::vec3(person(4)->world_from_model[3]) + glm::vec3(3.0f, 0.0f, 1.2f);
+  process_.adapt(scene_, std::span(&eye, 1));
+  ASSERT_EQ(process_.generated()->level(4), people::Detail::near);
+  process_.set_detail(0.25f);
+  process_.adapt(scene_, std::span(&eye, 1));
+  EXPECT_EQ(process_.generated()->level(4), people::Detail::middle);
+  process_.set_detail(1.0f);
+  process_.adapt(scene_, std::span(&eye, 1));
+  EXPECT_EQ(process_.generated()->level(4), people::Detail::near);
+}
+
 TEST_F(GeneratedPeople, OfWhomThereAreManyShareTheirMeshes) {
   begin(100);
   std::size_t near = 0;

@@ -176,7 +176,8 @@ void ShownPeople::adapt(scene::Scene& scene, std::span<const glm::vec3> eyes, co
     for (const Detail finer : {Detail::near, Detail::middle, Detail::far}) {
       const std::vector<std::size_t>& objects = looks_[look].objects[std::size_t(finer)];
       std::size_t& next = used[look][std::size_t(finer)];
-      if (distance > reach_m[std::size_t(finer)] * (it.level <= finer ? hysteresis : 1.0f)) continue;
+      const float reach = detail_ * reach_m[std::size_t(finer)];
+      if (distance > reach * (it.level <= finer ? hysteresis : 1.0f)) continue;
       if (next == objects.size()) continue;
       level = finer, object = objects[next++];
       break;

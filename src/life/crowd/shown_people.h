@@ -50,6 +50,9 @@ class ShownPeople {
   /// Chooses levels by the distances to the eyes, and shows who has changed.
   void adapt(scene::Scene& scene, std::span<const glm::vec3> eyes, const PostureOf& posture_of);
 
+  /// The share of their usual distances up to which people are shown at the finer levels.
+  void set_detail(float share) { detail_ = share; }
+
   std::size_t size() const { return people_.size(); }
   /// The level of detail at which a person is shown.
   people::Detail level(std::size_t person) const { return people_[person].level; }
@@ -80,6 +83,7 @@ class ShownPeople {
   std::vector<Look> looks_;
   std::vector<ShownPerson> people_;
   bool is_visible_ = true;
+  float detail_ = 1.0f;  ///< see set_detail
 };
 
 }  // namespace parvis::crowd

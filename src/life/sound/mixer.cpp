@@ -32,6 +32,21 @@ Octaves amplitudes_of(const Octaves& energies) {
 
 }  // namespace
 
+void keep_loudest(std::vector<HeardSound>& sounds, std::size_t count) {
+  if (sounds.size() <= count) return;
+  std::vector<double> loudness;
+  for (const HeardSound& sound : sounds) loudness.push_back(total(sound.energy));
+  std::ranges::nth_element(loudness, loudness.begin() + std::ptrdiff_t(count), std::ranges::greater{});
+  const double too_quiet = loudness[count];
+  // Of equally loud ones the first stay.
+  std::size_t louder =
+      std::size_t(std::ranges::count_if(loudness, [&](double it) { return it > too_quiet; }));
+  std::erase_if(sounds, [&](const HeardSound& sound) {
+    const double here = total(sound.energy);
+    return here < too_quiet || (here == too_quiet && louder++ >= count);
+  });
+}
+
 Mixer::Mixer(Output output, const MixerLimits& limits)
     : limits_(limits),
       // A microphone has no directions: in one cluster the energies of steady noise add up exactly.

@@ -33,6 +33,9 @@ struct MixerLimits {
   double masked_db = 30.0;  ///< what all quieter sounds together stay below the sum of an octave is not heard
 };
 
+/// Leaves of sounds the `count` loudest (A-weighted), in their order: for who cannot mix more.
+void keep_loudest(std::vector<HeardSound>& sounds, std::size_t count);
+
 /// Counts of a mix.
 struct MixCounts {
   std::size_t sounds = 0, masked = 0, clusters = 0, events = 0;

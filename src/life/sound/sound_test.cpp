@@ -94,6 +94,27 @@ TEST(Mixer, TenThousandSoundsInOnePointAndNoneAreMixed) {
   }
 }
 
+TEST(Mixer, TheLoudestStayWhereFewerCanBeMixed) {
+  std::vector<HeardSound> sounds;
+  for (const double energy : {3.0, 1.0, 4.0, 1.0, 5.0, 1.0}) {
+    HeardSound sound;
+    sound.id = sounds.size(), sound.energy.fill(energy);
+    sounds.push_back(sound);
+  }
+  const auto kept = [&](std::size_t count) {
+    std::vector<HeardSound> some = sounds;
+    keep_loudest(some, count);
+    std::vector<std::uint64_t> ids;
+    for (const HeardSound& sound : some) ids.push_back(sound.id);
+    return ids;
+  };
+  using Ids = std::vector<std::uint64_t>;
+  EXPECT_EQ(kept(3), (Ids{0, 2, 4}));
+  EXPECT_EQ(kept(4), (Ids{0, 1, 2, 4})) << "of equally loud ones the first";
+  EXPECT_EQ(kept(0), Ids{});
+  EXPECT_EQ(kept(9), (Ids{0, 1, 2, 3, 4, 5}));
+}
+
 TEST(Mixer, HearsTheLeftOnTheLeft) {
   HeardSound sound;
   sound.kind = SoundKind::fountain;

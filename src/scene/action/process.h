@@ -52,6 +52,9 @@ class Process {
   /// Shows what is presented as these eyes need it, before a frame is drawn from them: levels of detail.
   /// Nothing moves.
   virtual void adapt(scene::Scene&, std::span<const glm::vec3> /*eyes*/) {}
+  /// The share of its usual detail, 0 to 1, with which it shows what it presents from now on: a window that
+  /// cannot hold its rate lowers it. Nothing moves otherwise.
+  virtual void set_detail(float /*share*/) {}
   /// Finishes what it has spread over the frames to come, for a picture that stands by itself.
   virtual void settle(scene::Scene&) {}
   /// Does what the message to this node asks for. False where it is for another process, or for the node

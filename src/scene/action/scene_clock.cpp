@@ -51,6 +51,10 @@ void SceneClock::adapt(scene::Scene& scene, std::span<const glm::vec3> eyes) {
   for (Entry& entry : entries_) entry.process->adapt(scene, eyes);
 }
 
+void SceneClock::set_detail(float share) {
+  for (Entry& entry : entries_) entry.process->set_detail(share);
+}
+
 void SceneClock::settle(scene::Scene& scene) {
   for (Entry& entry : entries_) entry.process->settle(scene);
 }

@@ -26,6 +26,8 @@ class SceneClock {
   void follow(scene::Scene& scene) { present(scene, due_s_); }
   /// Shows the present moment as these eyes need it: Process::adapt. Before a frame is drawn.
   void adapt(scene::Scene& scene, std::span<const glm::vec3> eyes);
+  /// The share of their usual detail with which processes show things: Process::set_detail.
+  void set_detail(float share);
   /// Finishes what processes have spread over frames to come: for pictures and films, whose frames must not
   /// depend on those drawn before. After `advance` or `follow`.
   void settle(scene::Scene& scene);
