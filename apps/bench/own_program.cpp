@@ -56,7 +56,7 @@ int acknowledged_before_kill(int wanted, const std::function<void(const std::fun
   int acknowledged = 0;
   char byte = 0;
   while (acknowledged < wanted && read(pipes[0], &byte, 1) == 1) ++acknowledged;
-  constexpr unsigned longest_us = 5000, step = 7919;  // so that every moment of a command is met
+  constexpr unsigned longest_us = 5000, step = 7919;  // so that kills fall into every moment of a command
   usleep(unsigned(wanted) * step % longest_us);
   kill(child, SIGKILL);
   while (read(pipes[0], &byte, 1) == 1) ++acknowledged;

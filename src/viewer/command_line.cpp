@@ -12,7 +12,7 @@
 namespace parvis::viewer {
 namespace {
 
-/// What the window alone does: no edit of the design.
+/// A command of the window alone: no edit of the design.
 struct WindowCommand {
   const char* verb;
   void (*run)(Planning& planning);

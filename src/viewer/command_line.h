@@ -12,6 +12,7 @@ struct ImGuiInputTextCallbackData;
 
 namespace parvis::viewer {
 
+/// The line, which keeps its text and what was run before.
 class CommandLine {
  public:
   /// Both outlive it.
@@ -39,7 +40,7 @@ class CommandLine {
 /// behind them; where the text has its verb and a blank, the form of this verb alone.
 std::vector<std::string> forms_for(std::string_view text);
 
-/// What completes the text's last word: the longest beginning that the words which begin so have in common,
+/// The end of the text's last word: the longest beginning that the words which begin so have in common,
 /// without what is there. Words of a list of names, which commas part, count one by one.
 std::string completion(std::string_view text, const std::vector<std::string>& words);
 

@@ -53,7 +53,7 @@ class Input {
   static constexpr std::size_t movement_keys = 6;
   /// Whether each of W, S, A, D, E and Q was pressed since the last poll, if only for a moment.
   std::array<bool, movement_keys> was_pressed_{};
-  /// Keys that were pressed since the last poll, and those that Dear ImGui was told of in it.
+  /// Keys that were pressed since the last poll, and those that Dear ImGui has learnt of in it.
   std::vector<int> tapped_, told_;
   Visit& visit_;
   Panel& panel_;

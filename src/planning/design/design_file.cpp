@@ -180,7 +180,7 @@ Status read_json(const std::string& text, const std::string& file, Session& sess
   const auto text_in = [](const Json& entry, const char* key) {
     return entry.contains(key) && entry[key].is_string() ? entry[key].get<std::string>() : std::string();
   };
-  // Both on a map: what is told about one origin stands elsewhere about another.
+  // Both on a map: coordinates about one origin mean other places about another.
   glm::dvec3 moved(0.0);
   const glm::dvec3 own = session.view().scene.origin;
   if (whole.contains("origin") && own != glm::dvec3(0.0))
