@@ -247,6 +247,8 @@ constexpr Key keys[]{
     {"trees_1000_fps", "fps", minimum(10.0), "a thousand small oaks, the slowest view", {{"trees_1000_fps_finest"}}},
     {"lod_flip", "FLIP", maximum(0.05), "levels of detail against the finest", {{"lod_flip_coarsest"}}},
     {"maize_silhouette_iou", "", minimum(0.85), "silhouettes of a real plant, held-out side views", {{"maize_silhouette_iou_next_camera"}}},
+    // square
+    {"first_picture_s", "s", maximum(45.0), "parvis city square and a picture of it, 960x540, as script/demo makes it", {{"first_picture_s_if_seconds_were_minutes"}}},
 };
 // clang-format on
 

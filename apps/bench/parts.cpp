@@ -76,6 +76,7 @@ std::span<const Part> all_parts() {
       {"trees", "display", "a wood of a thousand captured trees", measure_display},
       {"trees", "maize", "silhouettes of a real plant", measure_maize},
       {"trees", "distribution", "two processes beside one", measure_distribution, false},
+      {"square", "first_picture", "from nothing to a picture of the square", measure_square_first_picture, false},
       // clang-format on
   };
   return parts;

@@ -32,6 +32,7 @@ Measured measure_sceaux, measure_courtyard, measure_filling, measure_drawings;  
 Measured measure_reconstruction, measure_display, measure_maize, measure_distribution;   // trees/
 Measured measure_walking, measure_recorded_people, measure_shown_people, measure_jumps;  // crowd/crowd.cpp
 Measured measure_square, measure_levels;                                                 // crowd/square.cpp
+Measured measure_square_first_picture;                                                   // square/square.cpp
 
 /// Parts of reflections/maps.cpp, on a stage of the paper's city or on its scene.
 void measure_motion(stage::Stage& stage, const BenchSetup& setup, Report& report);
