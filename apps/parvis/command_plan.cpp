@@ -30,7 +30,7 @@ struct Arguments {
   std::filesystem::path pdf, dxf, csv;
   plan_drawing::Sheet sheet;
   std::string centre;
-  std::string design;
+  std::string design, begun;
   std::vector<std::string> commands;
   std::vector<std::filesystem::path> kind_files;  ///< models that become kinds
   std::string kind_unit;
@@ -155,7 +155,7 @@ Status write_drawings(const Arguments& arguments, const stage::Simulation& simul
     if (Status status = plan_drawing::write_plan_csv(arguments.csv, plan); !status) return status;
   fmt::print("{} lines, {} trees, {} placed objects\n", plan.lines.size(), plan.trees.size(),
              plan.placed.size());
-  for (const std::string& note : plan.left_out) fmt::print("not on the plan: {}\n", note);
+  for (const std::string& note : plan.left_out) fmt::print("{}: {}\n", sheet.words("Not on this plan"), note);
   return Ok{};
 }
 
@@ -184,7 +184,8 @@ bool asks_for_nothing(const Arguments& a) {
 Status work_on(const Arguments& arguments, stage::Simulation& simulation, stage::Stage* stage) {
   if (arguments.lists_kinds) list_kinds(simulation.scene);
   Result<design::Session> session = design::Session::open(
-      simulation.scene, simulation.live(), arguments.design, design::resting_heights(simulation.scene));
+      simulation.scene, simulation.live(), arguments.begun.empty() ? arguments.design : arguments.begun,
+      design::resting_heights(simulation.scene), !arguments.begun.empty());
   if (!session) return session.errors();
   if (arguments.keeps_journal) {
     const Result<std::string> restored =
@@ -247,6 +248,7 @@ void add_plan(CLI::App& app, Chosen& chosen) {
   arguments->scene.add_state(*command);
   command->add_option("--design", arguments->design,
                       "Name of the design (default: the scene's first, or a new one)");
+  command->add_option("--new", arguments->begun, "Begin another design of this name")->excludes("--design");
   command
       ->add_option("--do", arguments->commands,
                    "A command, as \"insert bench_wood 12.40,3.05 heading 90\"; may repeat")

@@ -279,6 +279,9 @@ void Overlay::draw(Planning& planning, ImVec2 size, float scale) {
   if (planning.compares_pictures()) draw_split(planning, pen);
   if (planning.compares_pictures() && planning.compared_view() == ComparedView::side_by_side)
     return list->PopClipRect();
+  // Left of the slider's line stands the other design: nothing there belongs to this one.
+  const float from = planning.compares_pictures() ? planning.split() * size.x : 0.0f;
+  list->PushClipRect({from, 0.0f}, size, true);
   const planner::Tool& tool = *planning.tool();
   const bool moves = tool.action() == planner::Action::move || tool.action() == planner::Action::turn ||
                      tool.action() == planner::Action::resize;
@@ -306,6 +309,7 @@ void Overlay::draw(Planning& planning, ImVec2 size, float scale) {
     list->AddRectFilled(low, high, IM_COL32(240, 170, 84, 40));
     list->AddRect(low, high, chosen_ink, 0.0f, 0, scale);
   }
+  list->PopClipRect();
   if (camera.parallel) draw_scale(*list, camera, size, scale, size.y - 40.0f * scale);
   list->PopClipRect();
 }

@@ -82,13 +82,13 @@ const std::vector<planner::PlanSegment>& Planning::plan_lines() {
 }
 
 /// False: it cannot be opened, and the one that was open stays.
-bool Planning::open(const std::string& design) {
+bool Planning::open(const std::string& design, bool begins) {
   stage::Simulation& simulation = visit_.stage().simulation();
   const auto heights = [surfaces = surfaces_](glm::dvec2 at, const design::Names& without) {
     return surfaces->resting_height(at, without);
   };
   Result<design::Session> session =
-      design::Session::open(simulation.scene, simulation.live(), design, heights);
+      design::Session::open(simulation.scene, simulation.live(), design, heights, begins);
   if (!session) return tell(session.errors());
   desk_ = std::make_unique<Desk>(simulation, *std::move(session), *surfaces_);
   desk_->tool.set_plan(plan_lines());
@@ -120,6 +120,15 @@ void Planning::open_design(const std::string& name) {
   if (!open(name)) return;
   for (const scene::Node* node : design::designs_of(visit_.live()))
     visit_.live().set(*node, "visible", node->text("name") == name);
+}
+
+void Planning::begin_design() {
+  int number = 2;
+  while (visit_.live().find(fmt::format("design_{}", number))) ++number;
+  if (!open(fmt::format("design_{}", number), true)) return;
+  for (const scene::Node* node : design::designs_of(visit_.live()))
+    visit_.live().set(*node, "visible", false);
+  visit_.notice(word("a new design: what is placed from here on belongs to it"));
 }
 
 void Planning::compare_with_next() {

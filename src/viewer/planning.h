@@ -46,6 +46,8 @@ class Planning {
   std::vector<std::string> designs() const;
   /// Opens another design, shows it and hides the others.
   void open_design(const std::string& name);
+  /// Begins another design, under the next free name, and hides the others.
+  void begin_design();
 
   /// Compares the open design with the next one of the scene, and with the one behind it the next time, and
   /// at last with none.
@@ -121,7 +123,7 @@ class Planning {
     Desk(stage::Simulation& simulation, design::Session opened, design::SceneSurfaces& surfaces)
         : session(std::move(opened)), tool(simulation.scene, simulation.live(), session, surfaces) {}
   };
-  bool open(const std::string& design);
+  bool open(const std::string& design, bool begins = false);
   std::string name_of_view(int number) const;
   const std::vector<planner::PlanSegment>& plan_lines();
 

@@ -181,6 +181,10 @@ void PlanningBars::draw_views(float width) {
     places_["design " + design] = {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()};
     if (is_pressed && !is_open) planning_.open_design(design);
   }
+  if (!planning_.designs().empty() && !planning_.study) {
+    stay_on_line(padding + ImGui::CalcTextSize(planning_.word("New").c_str()).x, gap, width);
+    if (button("New", planning_.word("begins another design").c_str(), false, 0.0f)) planning_.begin_design();
+  }
   ImGui::End();
 }
 

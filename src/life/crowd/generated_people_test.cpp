@@ -132,7 +132,7 @@ TEST_F(GeneratedPeople, AreCoarserWhereAWindowCannotHoldItsRate) {
   ASSERT_EQ(process_.generated()->level(4), people::Detail::near);
   process_.set_detail(0.25f);
   process_.adapt(scene_, std::span(&eye, 1));
-  EXPECT_EQ(process_.generated()->level(4), people::Detail::middle);
+  EXPECT_EQ(process_.generated()->level(4), people::Detail::far);
   process_.set_detail(1.0f);
   process_.adapt(scene_, std::span(&eye, 1));
   EXPECT_EQ(process_.generated()->level(4), people::Detail::near);

@@ -40,7 +40,7 @@ std::optional<glm::dvec2> plan_point(const std::string& word) {
 }  // namespace
 
 Result<Session> Session::open(scene::Scene& scene, scene::LiveScene& live, const std::string& design,
-                              Heights heights) {
+                              Heights heights, bool begins) {
   Session session(scene, live, std::move(heights));
   const std::vector<const Node*> designs = designs_of(live);
   std::vector<std::string> names;
@@ -49,6 +49,10 @@ Result<Session> Session::open(scene::Scene& scene, scene::LiveScene& live, const
     session.name_ = names.empty() ? "design" : names.front();
     for (int number = 2; names.empty() && live.find(session.name_); ++number)
       session.name_ = fmt::format("design_{}", number);
+  } else if (begins) {
+    if (live.find(design))
+      return error("the name \"{}\" is taken; names are unique in a scene", design.substr(0, 40));
+    session.name_ = design;
   } else if (std::ranges::find(names, design) == names.end()) {
     return error("the scene has no design \"{}\"{}", design.substr(0, 40), names_that_exist(design, names));
   } else {
@@ -340,7 +344,8 @@ Result<std::string> Session::keep_journal(const std::filesystem::path& file) {
   if (Status status = journal->drop_cut_line(); !status) return status.errors();
   journal_ = *std::move(journal);
   if (unsaved == 0) return std::string();
-  return fmt::format("{} steps that had not been saved are there again{}", unsaved,
+  return fmt::format("{} that had not been saved {} there again{}",
+                     unsaved == 1 ? "a step" : fmt::format("{} steps", unsaved), unsaved == 1 ? "is" : "are",
                      content->is_cut ? "; one that was being written is not" : "");
 }
 

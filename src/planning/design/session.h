@@ -25,10 +25,10 @@ class Session {
   using Heights = std::function<double(glm::dvec2 at, const Names& without)>;
 
   /// Takes the design of that name; empty: the scene's first, or, where it has none, a new one called
-  /// "design" that comes with the first object. `heights`: what objects rest on. Errors: there is no such
-  /// design.
+  /// "design" that comes with the first object. `begins`: a new one of that name. `heights`: what objects
+  /// rest on. Errors: there is no such design; of a new one, its name is taken.
   static Result<Session> open(scene::Scene& scene, scene::LiveScene& live, const std::string& design,
-                              Heights heights);
+                              Heights heights, bool begins = false);
 
   /// Reads a command (command.h), or one of: undo, redo, select NAMES|all|none|kind KIND|like NAME|group
   /// NAME|box X,Y X,Y. Where names are asked for, "selected" stands for what is selected. An error changes

@@ -85,7 +85,7 @@ TEST_F(DesignTest, IsWrittenBesideASceneThatIsNamedWithoutAFolder) {
 }
 
 TEST_F(DesignTest, IsWrittenOverNothingElse) {
-  const std::filesystem::path script = folder_.write("scene.xp", "// Mine\ncamera(name=eye)\n"),
+  const std::filesystem::path script = folder_.write("mine.xp", "// Mine\ncamera(name=eye)\n"),
                               other = folder_.write("other.xp", "camera(name=another)\n");
   open();
   run("insert bench_stone 0,0");
@@ -104,7 +104,7 @@ TEST_F(DesignTest, NamesOfGroupsAndWordsOfCommandsAreKnown) {
   run("group umbrella_1,umbrella_2 as suns");
   run("ungroup suns");
   EXPECT_EQ(object("umbrella_1").group, "");
-  EXPECT_NE(refusal("insert bin 0,5 name selected").find("word of commands"), std::string::npos);
+  EXPECT_NE(refusal("insert bin 0,5 name none").find("word of commands"), std::string::npos);
   EXPECT_NE(refusal("surface paving 0,0 4,0 0,4 4,4").find("crosses itself"), std::string::npos);
 }
 
