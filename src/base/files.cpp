@@ -146,8 +146,10 @@ Result<fs::path> Roots::find(const std::string& name, const FileLocation& where)
     return error_at(
         where, "\"{}\" leads out of the scene's folder; keep files below it or name their root with --data",
         name);
-  return error_at(where, "there is no file \"{}\" in the scene's folder ({}) or a --data folder", name,
-                  scene_folder().string());
+  return error_at(where,
+                  "there is no file \"{}\" in the scene's folder ({}) or a --data folder; put it there, or "
+                  "take out what names it",
+                  name, scene_folder().string());
 }
 
 }  // namespace parvis

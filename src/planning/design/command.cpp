@@ -492,7 +492,8 @@ struct Maker {
           "both"));
     const double places = c.count > 0 ? double(c.count) : std::floor(length / c.spacing_m + 1e-9) + 1.0;
     if (places < 2.0 || places > double(max_objects))
-      return draft.fail(error("a row has 2 to {} objects, not {:g}", max_objects, places));
+      return draft.fail(error("a row has 2 to {} objects; this one would have {}", max_objects,
+                              places > 1e5 ? "more than 100,000" : fmt::format("{:g}", places)));
     const glm::dvec2 along = (c.to - c.from) / length;
     const double step = c.count > 0 ? length / (places - 1.0) : c.spacing_m;
     const double across_deg = glm::degrees(std::atan2(-along.y, along.x));  // to the left of the row

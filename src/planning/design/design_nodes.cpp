@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
+#include <tuple>
 
 #include "formats/readers/readers.h"
 #include "life/people/person_object.h"
@@ -205,6 +207,19 @@ void build_placed(const Node& node, SceneBuilder& builder, const formats::Reader
   builder.add(std::move(object));
 }
 
+/// Commands refuse a place that an object of the kind has; scripts may say what they like, and are warned.
+void warn_of_shared_places(const Node& design, SceneBuilder& builder) {
+  std::map<std::tuple<std::string, int, int, int>, const Node*> known;
+  for (const Node& node : design.children) {
+    if (node.schema->type != placed_type) continue;
+    const glm::ivec3 cm(glm::round(100.0f * glm::clamp(node.vec3("position"), -1e6f, 1e6f)));
+    const auto [first, is_new] = known.try_emplace({node.text("kind"), cm.x, cm.y, cm.z}, &node);
+    if (!is_new)
+      builder.warn(error_at(node.where, "\"{}\" stands where \"{}\" stands; move it, or take one of them out",
+                            node.text("name"), first->second->text("name")));
+  }
+}
+
 void build_surface(const Node& node, SceneBuilder& builder) {
   const std::vector<glm::vec3> outline = node.points("outline");
   const std::string signature = scene::signature(node);
@@ -242,6 +257,7 @@ void add_design_nodes(Registries& registries) {
   auto& registry = registries.get<scene::NodeRegistry>();
   add_kind_node(registry);
   registry.add(design_schema(), [](const Node& node, SceneBuilder& builder) {
+    warn_of_shared_places(node, builder);
     builder.build(node.children, glm::mat4(1.0f), node.flag("visible"));
   });
   registry.add(placed_schema(),

@@ -98,6 +98,19 @@ TEST_F(DesignTest, IsWrittenOverNothingElse) {
   EXPECT_NE(text.find("bench_stone_1"), std::string::npos);
 }
 
+TEST_F(DesignTest, AScriptThatPutsTwoInOnePlaceIsWarnedOfIt) {
+  const auto warnings_of = [&](const char* second) {
+    const auto loaded = ScriptTest::load(fmt::format(
+        "design(name=d) {{ placed(name=one, kind=bin, position=\"0 -8 0\") placed(name=two, kind=bin, "
+        "position=\"{}\") }}",
+        second));
+    EXPECT_TRUE(loaded);
+    return loaded ? to_string(loaded->warnings) : "";
+  };
+  EXPECT_NE(warnings_of("0 -8 0").find("\"two\" stands where \"one\" stands"), std::string::npos);
+  EXPECT_EQ(warnings_of("0 -7 0").find("stands where"), std::string::npos);
+}
+
 TEST_F(DesignTest, NamesOfGroupsAndWordsOfCommandsAreKnown) {
   open();
   run("row umbrella from 0,0 to 12,0 count 3");
