@@ -391,22 +391,26 @@ std::string state_of(const Table& table) {
 void measure_replay(const BenchSetup& setup, Report& report) {
   const std::filesystem::path script = setup.folder / "replay.xp", journal = setup.folder / "replay.journal";
   must(write_file(script, "camera(name=eye)\n"));
-  stage::Simulation simulation = setup.simulation(script);
-  Table table{simulation};
-  must(table.session.keep_journal(journal));
-  const std::string empty = state_of(table);
-  const int commands = setup.is_quick ? 1'000 : 10'000;
-  Random random(7);
-  int done = 0;
-  for (int i = 0; i < commands; ++i)
-    done += table.session.run(design::random_command(random, table.session)).ok() ? 1 : 0;
-  if (done < commands / 2) fail("of {} commands {} alone were done", commands, done);
-  const std::string made = state_of(table);
-  int steps = 0;
-  while (table.session.undo()) ++steps;
-  const bool is_undone = state_of(table) == empty;
-  for (int i = 0; i < steps; ++i) must(table.session.redo());
-  const bool is_redone = state_of(table) == made;
+  std::string empty, made;
+  bool is_undone = false, is_redone = false;
+  {  // what holds the journal is gone before it is opened again
+    stage::Simulation simulation = setup.simulation(script);
+    Table table{simulation};
+    must(table.session.keep_journal(journal));
+    empty = state_of(table);
+    const int commands = setup.is_quick ? 1'000 : 10'000;
+    Random random(7);
+    int done = 0;
+    for (int i = 0; i < commands; ++i)
+      done += table.session.run(design::random_command(random, table.session)).ok() ? 1 : 0;
+    if (done < commands / 2) fail("of {} commands {} alone were done", commands, done);
+    made = state_of(table);
+    int steps = 0;
+    while (table.session.undo()) ++steps;
+    is_undone = state_of(table) == empty;
+    for (int i = 0; i < steps; ++i) must(table.session.redo());
+    is_redone = state_of(table) == made;
+  }
   stage::Simulation again = setup.simulation(script);
   Table other{again};
   must(other.session.keep_journal(journal));
