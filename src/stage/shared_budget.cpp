@@ -15,7 +15,6 @@ void SharedBudget::frame_took(double frame_ms, double budget_ms, bool is_smalles
     *this = SharedBudget();
     return;
   }
-  shares_[std::size_t(Lowered::pixels)] = is_smallest ? min_share : 1.0;
   const bool is_over = is_smallest && frame_ms > over_budget * budget_ms,
              has_room = !is_smallest || frame_ms < room_in_budget * budget_ms;
   frames_over_ = is_over ? frames_over_ + 1 : 0;
@@ -25,19 +24,13 @@ void SharedBudget::frame_took(double frame_ms, double budget_ms, bool is_smalles
 }
 
 void SharedBudget::lower() {
-  for (std::size_t i = std::size_t(Lowered::reflections); i < lowered_count; ++i) {
-    if (shares_[i] <= min_share) continue;
-    shares_[i] = std::max(share_step * shares_[i], min_share);
-    return;
-  }
+  const auto next = std::ranges::find_if(shares_, [](double share) { return share > min_share; });
+  if (next != shares_.end()) *next = std::max(share_step * *next, min_share);
 }
 
 void SharedBudget::raise() {
-  for (std::size_t i = lowered_count; i-- > std::size_t(Lowered::reflections);) {
-    if (shares_[i] >= 1.0) continue;
-    shares_[i] = std::min(shares_[i] / share_step, 1.0);
-    return;
-  }
+  const auto last = std::find_if(shares_.rbegin(), shares_.rend(), [](double share) { return share < 1.0; });
+  if (last != shares_.rend()) *last = std::min(*last / share_step, 1.0);
 }
 
 }  // namespace parvis::stage

@@ -7,12 +7,12 @@
 
 namespace parvis::stage {
 
-/// The parts of a frame that are lowered, in this order: pixels first, since they make all of a picture
-/// cheaper; sound last, since it takes least and a gap in it is noticed most.
-enum class Lowered : unsigned char { pixels, reflections, people, sound };
-inline constexpr std::size_t lowered_count = 4;
+/// The parts of a frame that are lowered, in this order, once a picture has as few pixels as PictureScale
+/// allows; sound last, since it takes least and a gap in it is noticed most.
+enum class Lowered : unsigned char { reflections, people, sound };
+inline constexpr std::size_t lowered_count = 3;
 
-/// Decides how much of each is left. The resolution itself is PictureScale's, which follows each frame.
+/// Decides how much of each is left.
 class SharedBudget {
  public:
   static constexpr int frames_before_lowering = 12, frames_before_raising = 45;
@@ -22,15 +22,14 @@ class SharedBudget {
   /// picture had as few pixels as pictures have.
   void frame_took(double frame_ms, double budget_ms, bool is_smallest);
 
-  /// The share that is left of one of them, min_share to 1; of pixels 1, or min_share where no fewer can
-  /// be drawn.
+  /// The fraction that is left of one of them, min_share to 1.
   double share(Lowered what) const { return shares_[std::size_t(what)]; }
 
  private:
   void lower();
   void raise();
 
-  std::array<double, lowered_count> shares_{1.0, 1.0, 1.0, 1.0};
+  std::array<double, lowered_count> shares_{1.0, 1.0, 1.0};
   int frames_over_ = 0, frames_with_room_ = 0;  ///< one after the other
 };
 
