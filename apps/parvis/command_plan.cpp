@@ -98,8 +98,24 @@ Result<std::vector<std::pair<std::string, int>>> lines_of(const std::filesystem:
   return lines;
 }
 
-/// Models of --kind.
-Status take_kinds(const Arguments& arguments, const stage::Simulation& simulation, design::Session& session) {
+/// Files that are removed at its end, unless something that was written names them.
+struct NewFiles {
+  std::vector<std::filesystem::path> files;
+  NewFiles() = default;
+  NewFiles(const NewFiles&) = delete;
+  NewFiles& operator=(const NewFiles&) = delete;
+  ~NewFiles() {
+    std::error_code ignored;
+    for (const std::filesystem::path& file : files) {
+      std::filesystem::remove(file, ignored);
+      std::filesystem::remove(file.parent_path(), ignored);  // only where it is empty
+    }
+  }
+};
+
+/// Models of --kind; files that are written for them.
+Status take_kinds(const Arguments& arguments, const stage::Simulation& simulation, design::Session& session,
+                  NewFiles& new_files) {
   const std::map<std::string, double> units{
       {"", 0.0}, {"m", design::metre}, {"cm", design::centimetre}, {"mm", design::millimetre}};
   for (const std::filesystem::path& file : arguments.kind_files) {
@@ -107,6 +123,7 @@ Status take_kinds(const Arguments& arguments, const stage::Simulation& simulatio
         design::import_kind(simulation.registries->get<formats::Readers>(), simulation.scene, file,
                             units.at(arguments.kind_unit));
     if (!kind) return kind.errors();
+    if (!kind->new_file.empty()) new_files.files.push_back(kind->new_file);
     if (Status status = session.run(design::Command(kind->command)); !status) return status;
     fmt::print("{}\n", kind->note);
   }
@@ -199,7 +216,9 @@ Status work_on(const Arguments& arguments, stage::Simulation& simulation, stage:
     if (Status status = design::read_json(*text, arguments.import_json.string(), *session); !status)
       return status;
   }
-  if (Status status = take_kinds(arguments, simulation, *session); !status) return status;
+  NewFiles new_files;
+  if (Status status = take_kinds(arguments, simulation, *session, new_files); !status) return status;
+  if (arguments.keeps_journal) new_files.files.clear();
   if (Status status = run_commands(arguments, *session); !status) return status;
   if (arguments.lists_objects) list_objects(*session);
   if (!arguments.compared.empty())
@@ -207,9 +226,11 @@ Status work_on(const Arguments& arguments, stage::Simulation& simulation, stage:
   if (!arguments.json.empty())
     if (Status status = write_file(arguments.json, design::json_of(simulation.scene, *session)); !status)
       return status;
+  if (!arguments.json.empty()) new_files.files.clear();
   if (!arguments.output.empty()) {
     if (Status status = design::save(*session, simulation.scene.file, arguments.output); !status)
       return status;
+    new_files.files.clear();
     fmt::print("{}: design \"{}\" with {} objects\n", arguments.output.string(), session->name(),
                session->objects().size());
     if (Status status = session->note_saved(); !status) return status;

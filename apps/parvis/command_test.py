@@ -970,6 +970,21 @@ class Plans(InAFolder):
         scene.write_text('planDrawing(name="survey", file="square.dxf", blocks="BANC=bench")\n')
         return scene
 
+    def test_a_kind_that_nothing_names_leaves_no_file(self):
+        scene = self.write("empty.xp", "design(name=a) { }\n")
+        self.write("seat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        kept = self.folder / "kinds" / "seat.glb"
+        done = run("plan", scene, "--kind", self.folder / "seat.obj", "--list")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertFalse(kept.parent.exists())
+        done = run("plan", scene, "--kind", self.folder / "seat.obj", "--do", "insert seat 1,2", "--json", self.folder / "a.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(kept.exists())
+
+    def test_a_design_of_a_newer_version(self):
+        self.expect_failure("check", self.write("new.xp", "design(name=a, version=9) { }\n"),
+                            words=["version 9", "newer than this program"])
+
     def test_a_plan_in_three_files(self):
         scene = self.write_scene()
         pdf, dxf, table = (self.folder / name for name in ("plan.pdf", "plan.dxf", "plan.csv"))

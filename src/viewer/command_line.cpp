@@ -93,6 +93,7 @@ void CommandLine::recall(ImGuiInputTextCallbackData& data) {
 
 float CommandLine::draw(float picture_width, float foot, Places& places) {
   const bool opens = planning_.shows_commands && !was_open_;
+  const bool takes_keys = opens || (planning_.awaits_command_keys && !took_keys_);
   was_open_ = planning_.shows_commands;
   if (!planning_.shows_commands || !planning_.session()) return 0.0f;
   constexpr float usual_width = 620.0f, gap = 8.0f;  // at scale 1
@@ -112,7 +113,7 @@ float CommandLine::draw(float picture_width, float foot, Places& places) {
   if (forms.empty()) ImGui::TextColored(error_text, "%s", planning_.word("no command begins so").c_str());
   ImGui::PopTextWrapPos();
   if (opens) recalled_ = run_.size(), text_.clear();
-  if (std::exchange(wants_keys_, false) || opens) ImGui::SetKeyboardFocusHere();
+  if (std::exchange(wants_keys_, false) || takes_keys) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-FLT_MIN);
   const bool is_entered = ImGui::InputTextWithHint(
       "##command", planning_.word("a command; Tab completes it, Enter runs it, Esc closes").c_str(), &text_,
@@ -128,8 +129,8 @@ float CommandLine::draw(float picture_width, float foot, Places& places) {
   const bool closes = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
   const float height = ImGui::GetWindowSize().y + gap * imgui_.scale();
   ImGui::End();
-  planning_.awaits_command_keys = opens;  // the line has them from the next frame on
-  wants_keys_ = is_entered;               // ImGui leaves the line with Enter
+  planning_.awaits_command_keys = took_keys_ = takes_keys;  // the line has them from the next frame on
+  wants_keys_ = is_entered;                                 // ImGui leaves the line with Enter
   if (is_entered && !text_.empty() && !forms.empty() && run(text_)) {
     run_.push_back(std::exchange(text_, {}));
     recalled_ = run_.size();

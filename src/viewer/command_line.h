@@ -33,7 +33,7 @@ class CommandLine {
   std::string text_;
   std::vector<std::string> run_;  ///< what was run, the latest last
   std::size_t recalled_ = 0;      ///< of these; their number: none
-  bool was_open_ = false, wants_keys_ = false;
+  bool was_open_ = false, wants_keys_ = false, took_keys_ = false;
 };
 
 /// Forms of the commands whose verb begins so, in the order of design::command_forms, those of the window

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <glm/gtx/rotate_vector.hpp>
 #include <utility>
 
 #include "graphics/reference/camera_ray.h"
@@ -36,21 +37,39 @@ std::filesystem::path new_file(const std::filesystem::path& scene, const std::st
   }
 }
 
-/// Walking keeps to the ground, climbs steps and stops at walls.
-std::optional<glm::vec3> step_on_foot(design::SceneSurfaces& surfaces, glm::vec3 from, glm::vec3 to) {
-  constexpr float shoulders_m = 0.3f, max_step_m = 0.4f, max_fall_m = 1.2f;
-  const glm::vec2 way = glm::vec2(to - from);
+constexpr float shoulders_m = 0.3f, max_step_m = 0.4f, max_fall_m = 1.2f;
+
+/// The side of a wall that a visitor meets on a way, horizontal; nothing: the way is free.
+std::optional<glm::vec2> wall_on(design::SceneSurfaces& surfaces, glm::vec3 from, glm::vec2 way) {
+  constexpr float aside = 0.7f;  // rad, about what shoulders sweep
   const float length_m = glm::length(way);
-  if (length_m < 1e-6f) return to;
-  const glm::vec3 ahead(way / length_m, 0.0f);
-  for (const float above_feet_m : {0.6f, 1.3f}) {
-    const glm::vec3 origin = from + glm::vec3(0.0f, 0.0f, above_feet_m - eye_m);
-    if (surfaces.first_along({origin, ahead, 0.0f, length_m + shoulders_m})) return std::nullopt;
+  for (const float turn : {0.0f, aside, -aside}) {
+    const glm::vec3 ahead(glm::rotate(way / length_m, turn), 0.0f);
+    for (const float above_feet_m : {0.6f, 1.3f}) {
+      const glm::vec3 origin = from + glm::vec3(0.0f, 0.0f, above_feet_m - eye_m);
+      const auto met = surfaces.first_along({origin, ahead, 0.0f, length_m + shoulders_m});
+      if (!met) continue;
+      const glm::vec2 side(met->normal);
+      return glm::length(side) > 0.1f ? glm::normalize(side) : -way / length_m;
+    }
   }
-  const glm::vec3 knees = to + glm::vec3(0.0f, 0.0f, max_step_m - eye_m);
+  return std::nullopt;
+}
+
+/// Walking keeps to the ground, climbs steps, and stops at walls or goes along them.
+std::optional<glm::vec3> step_on_foot(design::SceneSurfaces& surfaces, glm::vec3 from, glm::vec3 to) {
+  constexpr float shortest_m = 1e-6f;
+  glm::vec2 way(to - from);
+  if (glm::length(way) < shortest_m) return to;
+  for (int corners = 0; const std::optional<glm::vec2> side = wall_on(surfaces, from, way); ++corners) {
+    way -= std::min(glm::dot(way, *side), 0.0f) * *side;
+    if (corners == 2 || glm::length(way) < 0.1f * glm::length(glm::vec2(to - from))) return std::nullopt;
+  }
+  const glm::vec3 reached(glm::vec2(from) + way, to.z);
+  const glm::vec3 knees = reached + glm::vec3(0.0f, 0.0f, max_step_m - eye_m);
   const auto below = surfaces.first_along({knees, {0.0f, 0.0f, -1.0f}, 0.0f, max_step_m + max_fall_m});
-  if (!below) return to;  // nothing to stand on: the eye keeps its height
-  return glm::vec3(to.x, to.y, float(below->position.z) + eye_m);
+  if (!below) return reached;  // nothing to stand on: the eye keeps its height
+  return glm::vec3(reached.x, reached.y, float(below->position.z) + eye_m);
 }
 
 }  // namespace
@@ -58,7 +77,11 @@ std::optional<glm::vec3> step_on_foot(design::SceneSurfaces& surfaces, glm::vec3
 Planning::Planning(Visit& visit, design::Language language)
     : visit_(visit),
       language_(language),
-      surfaces_(std::make_shared<design::SceneSurfaces>(visit.stage().simulation().scene)) {}
+      surfaces_(std::make_shared<design::SceneSurfaces>(visit.stage().simulation().scene)) {
+  visit_.navigation().on_foot = [surfaces = surfaces_](glm::vec3 from, glm::vec3 to) {
+    return step_on_foot(*surfaces, from, to);
+  };
+}
 
 std::vector<std::string> Planning::designs() const {
   std::vector<std::string> names;
@@ -109,11 +132,6 @@ void Planning::turn_on(bool on) {
   if (on && !desk_) open("");
   is_on_ = on && desk_;
   if (!is_on_ && desk_) desk_->tool.choose(planner::Mode::select);
-  visit_.navigation().on_foot = {};
-  if (is_on_)
-    visit_.navigation().on_foot = [surfaces = surfaces_](glm::vec3 from, glm::vec3 to) {
-      return step_on_foot(*surfaces, from, to);
-    };
 }
 
 void Planning::open_design(const std::string& name) {

@@ -74,9 +74,13 @@ TEST_F(ShadowMapsInMotion, HeldThingsShadeEachOtherUntilTheyAreLetGo) {
   scene::Scene held;
   add(held, model_of(box({-4, -8, 0}, {4, -3, 0.1f}), matt(glm::vec3(0.5f))));
   const int plate = add(held, model_of(box({-1, -6, 2}, {1, -5, 2.1f}), matt(glm::vec3(0.5f))));
-  const auto shown = [&](bool has_plate) {
+  const auto shown = [&](bool has_plate, bool draws_map = false) {
     held.objects[std::size_t(plate)].is_visible = has_plate;
     drawn(*seeing);
+    Camera far_away;
+    far_away.world_from_camera = look_at({300, 0, 2}, {310, 0, 2});
+    if (draws_map) seeing->begin_still_frame(scene_, far_away);
+    seeing->relight_main_view(scene_, camera_);
     EXPECT_TRUE(seeing->draw_over(held, false));
     return seeing->read_radiance().pixels;
   };
@@ -84,6 +88,7 @@ TEST_F(ShadowMapsInMotion, HeldThingsShadeEachOtherUntilTheyAreLetGo) {
   long darker = 0;
   for (std::size_t i = 0; i < with.size(); ++i) darker += with[i] < 0.5f * without[i];
   EXPECT_GT(darker, 100) << "the plate's shadow on the slab";
+  EXPECT_EQ(shown(true, true), with) << "a map of reflections, drawn behind the frame, takes no light away";
   EXPECT_EQ(drawn(*seeing), drawn(*renderer())) << "nothing of it stays in the maps";
 }
 

@@ -237,6 +237,7 @@ Status Renderer::reserve_eyes(std::size_t count) {
 void Renderer::prepare_main_view(const Camera& camera, int width, int height, Subjects subjects,
                                  const std::vector<std::uint8_t>* shown_objects) {
   target().resize(width, height, has_one_sample_);
+  main_view_frame_ = frames_begun_;
   main_view_ = camera_view(camera, target().framebuffer(), width, height);
   main_view_.has_one_sample = has_one_sample_;
   main_view_.culls_hidden = !shown_objects;  // static occluders hide things though they are left out
@@ -253,6 +254,12 @@ void Renderer::draw_main_view() {
   main_view_.shown_objects = nullptr;
   target().set_realism(realism_);
   target().resolve(exposure_);
+}
+
+void Renderer::relight_main_view(const scene::Scene& scene, const Camera& camera) {
+  if (main_view_frame_ == frames_begun_) return;
+  begin_frame(scene, camera);
+  main_view_frame_ = frames_begun_;
 }
 
 Status Renderer::draw_over(const scene::Scene& held, bool is_kept) {

@@ -25,7 +25,13 @@ scene::NodeSchema design_schema() {
               "A project: objects and ground surfaces that people place, move and compare. A scene holds any "
               "number.",
           .attributes = {text("name", "by which commands and scenarios call it").required(),
-                         text("label", "what people call it"), scene::visible_attribute()},
+                         text("label", "what people call it"),
+                         integer("version",
+                                 "of the form in which it is written; one that is newer than the "
+                                 "program is refused")
+                             .between(1, 1'000'000)
+                             .by_default("1"),
+                         scene::visible_attribute()},
           .stands_in = {scene::top_level, "group", "scenario"},
           .example =
               "design(name=\"stone\") {\n"
@@ -243,6 +249,14 @@ void check_measured(const Node& node, SceneBuilder& builder) {
     builder.fail(error_at(node.where_of("points"), "{}", status.errors().front().message));
 }
 
+void check_version(const Node& node, SceneBuilder& builder) {
+  constexpr int known = 1;
+  if (const std::int64_t version = node.integer("version"); version > known)
+    builder.fail(error_at(node.where_of("version"),
+                          "the design is of version {}, newer than this program ({}); open it with that one",
+                          version, known));
+}
+
 void find_designs(const scene::Nodes& nodes, std::vector<const Node*>& found) {
   for (const Node& node : nodes)
     if (node.schema->type == design_type)
@@ -257,6 +271,7 @@ void add_design_nodes(Registries& registries) {
   auto& registry = registries.get<scene::NodeRegistry>();
   add_kind_node(registry);
   registry.add(design_schema(), [](const Node& node, SceneBuilder& builder) {
+    check_version(node, builder);
     warn_of_shared_places(node, builder);
     builder.build(node.children, glm::mat4(1.0f), node.flag("visible"));
   });

@@ -91,6 +91,8 @@ Result<OwnKind> import_kind(const formats::Readers& readers, const scene::Scene&
       if (!is_same) continue;
     } else if (Status status = scene::write_gltf(kept, objects, {}); !status) {
       return status.errors();
+    } else {
+      made.new_file = kept;
     }
     made.command.name = object.name, made.command.file = "kinds/" + object.name + ".glb";
   }

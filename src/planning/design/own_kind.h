@@ -13,8 +13,9 @@ inline constexpr double metre = 1.0, centimetre = 0.01, millimetre = 0.001;
 
 /// A model that was read for a design.
 struct OwnKind {
-  TakeKind command;  ///< that adds it to a design
-  std::string note;  ///< its size, for people, and the unit that was taken for that of the file
+  TakeKind command;                ///< that adds it to a design
+  std::string note;                ///< its size, for people, and the unit that was taken for that of the file
+  std::filesystem::path new_file;  ///< that was written for it; empty: there was one of equal content
 };
 
 /// Reads a model and writes it to `kinds/NAME.glb` in the scene's folder, a free name made of the file's,
