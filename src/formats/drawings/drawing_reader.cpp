@@ -151,11 +151,14 @@ Result<Drawing> parse_drawing(std::string_view bytes, const std::string& file,
   measure_blocks(facts, *geometry, drawing);
   drawing.entity_counts = facts.counts, drawing.paper_entities = facts.paper_entities;
   count_left_out(facts, *geometry, drawing);
-  if (drawing.lines.empty() && drawing.areas.empty() && drawing.texts.empty() && drawing.points.empty())
-    return error_at({file, 0, 0}, "nothing is drawn in model space{}",
-                    facts.paper_entities > 0
-                        ? "; its layouts (paper space) are not read: copy what they show into model space"
-                        : "");
+  if (drawing.lines.empty() && drawing.areas.empty() && drawing.texts.empty() && drawing.points.empty()) {
+    std::string reason;
+    for (const auto& [type, count] : drawing.left_out)
+      reason += fmt::format("{}{} {}", reason.empty() ? "; not read: " : ", ", count, type);
+    if (facts.paper_entities > 0)
+      reason += "; its layouts (paper space) are not read: copy what they show into model space";
+    return error_at({file, 0, 0}, "nothing is drawn in model space{}", reason);
+  }
   return drawing;
 }
 

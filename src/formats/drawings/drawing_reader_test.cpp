@@ -247,6 +247,12 @@ TEST(DrawingReader, CountsWhatIsNotDrawn) {
   EXPECT_EQ(account.count(scene::Fate::left_out, "entities in layouts"), 1u);
   EXPECT_EQ(account.count(scene::Fate::used, "LINE"), 1u) << "the other one lies too far away";
   EXPECT_NE(to_string(account.warnings()).find("2 ACAD_TABLE left out"), std::string::npos);
+  file.entities = "0 RAY|5 B|8 0|10 0|20 0|11 1|21 0|0 RAY|5 C|8 0|10 0|20 0|11 1|21 1";
+  const Result<Drawing> empty = parse_drawing(file.text(), "test.dxf", std::nullopt, warnings);
+  ASSERT_FALSE(empty);
+  EXPECT_NE(to_string(empty.errors()).find("nothing is drawn in model space; not read: 2 RAY"),
+            std::string::npos)
+      << to_string(empty.errors());
 }
 
 /// The binary form of a text file; with codes of one byte, as before AC1012, if `is_old`.

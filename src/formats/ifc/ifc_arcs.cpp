@@ -2,26 +2,34 @@
 
 #include <ifcpp/IFC4/include/IfcAxis2Placement2D.h>
 #include <ifcpp/IFC4/include/IfcAxis2Placement3D.h>
+#include <ifcpp/IFC4/include/IfcBSplineCurve.h>
 #include <ifcpp/IFC4/include/IfcBoolean.h>
 #include <ifcpp/IFC4/include/IfcCartesianPoint.h>
 #include <ifcpp/IFC4/include/IfcCircle.h>
 #include <ifcpp/IFC4/include/IfcCompositeCurveSegment.h>
+#include <ifcpp/IFC4/include/IfcDirection.h>
 #include <ifcpp/IFC4/include/IfcEllipse.h>
 #include <ifcpp/IFC4/include/IfcLengthMeasure.h>
+#include <ifcpp/IFC4/include/IfcLine.h>
 #include <ifcpp/IFC4/include/IfcParameterValue.h>
 #include <ifcpp/IFC4/include/IfcPlaneAngleMeasure.h>
 #include <ifcpp/IFC4/include/IfcPolyline.h>
 #include <ifcpp/IFC4/include/IfcPositiveLengthMeasure.h>
+#include <ifcpp/IFC4/include/IfcReal.h>
 #include <ifcpp/IFC4/include/IfcRevolvedAreaSolid.h>
 #include <ifcpp/IFC4/include/IfcTrimmedCurve.h>
+#include <ifcpp/IFC4/include/IfcVector.h>
 #include <ifcpp/geometry/Carve/GeometryConverter.h>
 #include <ifcpp/model/BuildingModel.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <limits>
 #include <numbers>
 #include <optional>
+
+#include "formats/ifc/ifc_splines.h"
 
 namespace parvis::scene {
 namespace {
@@ -69,22 +77,36 @@ glm::dvec3 place_at(double angle, const Conic& conic) {
   return {at.x, at.y, at.z};
 }
 
-/// Where a trim lies on a conic, radians: by its point, which says the same in any unit, else by its
-/// parameter.
-std::optional<double> angle_of(const Trims& trims, const Conic& conic, double unit_m, double unit_rad) {
-  std::optional<double> angle;
-  for (const auto& trim : trims) {
-    if (const auto* point = dynamic_cast<const IfcCartesianPoint*>(trim.get());
-        point && point->m_Coordinates.size() >= 2) {
-      glm::dvec3 from(0.0);
-      for (std::size_t axis = 0; axis < std::min<std::size_t>(point->m_Coordinates.size(), 3); ++axis)
-        if (point->m_Coordinates[axis]) from[int(axis)] = point->m_Coordinates[axis]->m_value * unit_m;
-      return angle_of(from, conic);
-    }
-    if (const auto* parameter = dynamic_cast<const IfcParameterValue*>(trim.get()))
-      angle = parameter->m_value * unit_rad;
+glm::dvec3 place_of(const IfcCartesianPoint& point, double unit_m) {
+  glm::dvec3 place(0.0);
+  for (std::size_t axis = 0; axis < std::min<std::size_t>(point.m_Coordinates.size(), 3); ++axis)
+    if (point.m_Coordinates[axis]) place[int(axis)] = point.m_Coordinates[axis]->m_value * unit_m;
+  return place;
+}
+
+/// Where a curve is trimmed: by a point, which says the same in any unit, else by a parameter.
+struct Trim {
+  std::optional<glm::dvec3> place;
+  std::optional<double> parameter;
+};
+
+Trim trim_of(const Trims& given, double unit_m) {
+  Trim trim;
+  for (const auto& each : given) {
+    if (const auto* point = dynamic_cast<const IfcCartesianPoint*>(each.get());
+        point && point->m_Coordinates.size() >= 2)
+      trim.place = place_of(*point, unit_m);
+    if (const auto* parameter = dynamic_cast<const IfcParameterValue*>(each.get());
+        parameter && std::isfinite(parameter->m_value))
+      trim.parameter = parameter->m_value;
   }
-  return angle;
+  return trim;
+}
+
+/// Where a trim lies on a conic, radians.
+std::optional<double> angle_of(const Trim& trim, const Conic& conic, double unit_rad) {
+  if (trim.place) return angle_of(*trim.place, conic);
+  return trim.parameter ? std::optional(*trim.parameter * unit_rad) : std::nullopt;
 }
 
 std::shared_ptr<IfcPolyline> polyline(const std::vector<vec3>& points, double unit_m) {
@@ -103,8 +125,8 @@ std::vector<vec3> arc_of(const IfcTrimmedCurve& curve, RepresentationConverter& 
                          double unit_rad) {
   const std::optional<Conic> conic = conic_of(curve.m_BasisCurve.get(), converter, unit_m);
   if (!conic) return {};
-  const auto from = angle_of(curve.m_Trim1, *conic, unit_m, unit_rad),
-             to = angle_of(curve.m_Trim2, *conic, unit_m, unit_rad);
+  const auto from = angle_of(trim_of(curve.m_Trim1, unit_m), *conic, unit_rad),
+             to = angle_of(trim_of(curve.m_Trim2, unit_m), *conic, unit_rad);
   if (!from || !to || !std::isfinite(*from) || !std::isfinite(*to)) return {};
   const double sense = !curve.m_SenseAgreement || curve.m_SenseAgreement->m_value ? 1.0 : -1.0;
   double opening = std::fmod(sense * (*to - *from), whole_turn);
@@ -116,6 +138,111 @@ std::vector<vec3> arc_of(const IfcTrimmedCurve& curve, RepresentationConverter& 
     points.push_back(conic->world_from_conic * carve::geom::VECTOR(conic->radii.x * std::cos(angle),
                                                                    conic->radii.y * std::sin(angle), 0.0));
   }
+  return points;
+}
+
+/// The two ends of a trimmed line; empty where `curve` trims none.
+std::vector<vec3> piece_of_line(const IfcTrimmedCurve& curve, double unit_m) {
+  const auto* line = dynamic_cast<const IfcLine*>(curve.m_BasisCurve.get());
+  if (!line || !line->m_Pnt || !line->m_Dir || !line->m_Dir->m_Orientation || !line->m_Dir->m_Magnitude)
+    return {};
+  glm::dvec3 direction(0.0);
+  const auto& ratios = line->m_Dir->m_Orientation->m_DirectionRatios;
+  for (std::size_t axis = 0; axis < std::min<std::size_t>(ratios.size(), 3); ++axis)
+    if (ratios[axis]) direction[int(axis)] = ratios[axis]->m_value;
+  const double length = glm::length(direction);
+  if (!(length > 0.0)) return {};
+  direction *= line->m_Dir->m_Magnitude->m_value * unit_m / length;
+  std::vector<vec3> ends;
+  for (const Trims* given : {&curve.m_Trim1, &curve.m_Trim2}) {
+    const Trim trim = trim_of(*given, unit_m);
+    if (!trim.place && !trim.parameter) return {};
+    const glm::dvec3 at =
+        trim.place ? *trim.place : place_of(*line->m_Pnt, unit_m) + *trim.parameter * direction;
+    ends.push_back(carve::geom::VECTOR(at.x, at.y, at.z));
+  }
+  return ends;
+}
+
+/// A curve as points with their parameters.
+struct SampledCurve {
+  std::vector<double> parameters;
+  std::vector<glm::dvec3> points;
+
+  /// Where it is nearest to a place.
+  double nearest(glm::dvec3 place) const {
+    double distance = std::numeric_limits<double>::infinity(), found = parameters.front();
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      const glm::dvec3 along = points[i + 1] - points[i];
+      const double squared = glm::dot(along, along);
+      const double t =
+          squared > 0.0 ? std::clamp(glm::dot(place - points[i], along) / squared, 0.0, 1.0) : 0.0;
+      if (const double d = glm::distance(place, points[i] + t * along); d < distance)
+        distance = d, found = glm::mix(parameters[i], parameters[i + 1], t);
+    }
+    return found;
+  }
+  glm::dvec3 point(double parameter) const {
+    const auto above = std::upper_bound(parameters.begin() + 1, parameters.end() - 1, parameter);
+    const std::size_t i = std::size_t(above - parameters.begin()) - 1;
+    const double t = (parameter - parameters[i]) / (parameters[i + 1] - parameters[i]);
+    return glm::mix(points[i], points[i + 1], std::clamp(t, 0.0, 1.0));
+  }
+};
+
+std::optional<SampledCurve> sampled(const IfcCurve* curve, double unit_m) {
+  SampledCurve samples;
+  if (const auto* spline = dynamic_cast<const IfcBSplineCurve*>(curve)) {
+    const std::optional<SplineCurve> given = SplineCurve::of(*spline, unit_m);
+    if (!given) return std::nullopt;
+    samples.parameters = given->basis.steps();
+    for (const double step : samples.parameters) samples.points.push_back(given->point(step));
+  } else if (const auto* line = dynamic_cast<const IfcPolyline*>(curve)) {
+    for (const auto& point : line->m_Points) {
+      if (!point) return std::nullopt;
+      samples.parameters.push_back(double(samples.points.size()));
+      samples.points.push_back(place_of(*point, unit_m));
+    }
+  }
+  return samples.points.size() < 2 ? std::nullopt : std::optional(samples);
+}
+
+/// The points of a trimmed B-spline or polyline, in the direction in which the curve runs; empty where it is
+/// none.
+std::vector<vec3> piece_of_samples(const IfcTrimmedCurve& curve, double unit_m) {
+  const std::optional<SampledCurve> samples = sampled(curve.m_BasisCurve.get(), unit_m);
+  if (!samples) return {};
+  std::array<double, 2> ends{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Trim trim = trim_of(i == 0 ? curve.m_Trim1 : curve.m_Trim2, unit_m);
+    if (!trim.place && !trim.parameter) return {};
+    ends[i] = trim.parameter.value_or(0.0);
+    if (trim.place) ends[i] = samples->nearest(*trim.place);
+    ends[i] = std::clamp(ends[i], samples->parameters.front(), samples->parameters.back());
+  }
+  const bool is_forward = !curve.m_SenseAgreement || curve.m_SenseAgreement->m_value;
+  if (!is_forward) std::swap(ends[0], ends[1]);
+  std::vector<glm::dvec3> piece;
+  const auto add = [&](double from, double to) {
+    piece.push_back(samples->point(from));
+    for (std::size_t i = 0; i < samples->points.size(); ++i)
+      if (samples->parameters[i] > from && samples->parameters[i] < to) piece.push_back(samples->points[i]);
+    piece.push_back(samples->point(to));
+  };
+  constexpr double same_m = 1e-6;
+  if (ends[0] < ends[1]) {
+    add(ends[0], ends[1]);
+  } else if (glm::distance(samples->points.front(), samples->points.back()) < same_m) {  // over its seam
+    add(ends[0], samples->parameters.back());
+    piece.pop_back();
+    add(samples->parameters.front(), ends[1]);
+  } else {
+    add(ends[1], ends[0]);
+    std::ranges::reverse(piece);
+  }
+  if (!is_forward) std::ranges::reverse(piece);
+  std::vector<vec3> points;
+  for (const glm::dvec3& at : piece) points.push_back(carve::geom::VECTOR(at.x, at.y, at.z));
   return points;
 }
 
@@ -146,7 +273,7 @@ void settle_unit_of_angles(BuildingModel& building) {
   units.setAngleUnit(has_degrees ? UnitConverter::DEGREE : UnitConverter::RADIANT);
 }
 
-void replace_arcs(BuildingModel& building, RepresentationConverter& converter) {
+void replace_trimmed_curves(BuildingModel& building, RepresentationConverter& converter) {
   UnitConverter& units = *building.getUnitConverter();
   const double unit_m = units.getLengthInMeterFactor();
   const double unit_rad = units.getAngleInRadiantFactor();
@@ -156,6 +283,8 @@ void replace_arcs(BuildingModel& building, RepresentationConverter& converter) {
     std::vector<vec3> points;
     try {
       points = arc_of(*trimmed, converter, unit_m, unit_rad);
+      if (points.empty()) points = piece_of_line(*trimmed, unit_m);
+      if (points.empty()) points = piece_of_samples(*trimmed, unit_m);
     } catch (const std::exception&) {  // of IFC++: a placement that it cannot follow
     }
     if (points.empty()) continue;
@@ -163,6 +292,7 @@ void replace_arcs(BuildingModel& building, RepresentationConverter& converter) {
     trimmed->m_Trim1.clear(), trimmed->m_Trim2.clear();
     trimmed->m_SenseAgreement = std::make_shared<IfcBoolean>(true);
   }
+  straighten_splines(building);
   for (const auto& [id, entity] : building.getMapIfcEntities()) {
     auto* segment = dynamic_cast<IfcCompositeCurveSegment*>(entity.get());
     if (!segment || !segment->m_ParentCurve || !segment->m_SameSense || segment->m_SameSense->m_value)

@@ -22,9 +22,11 @@ std::optional<std::vector<glm::dvec3>> arc_between(const IfcCurve& curve,
 /// more than a whole turn of them, for degrees. IFC++ takes those from half a turn on for degrees.
 void settle_unit_of_angles(BuildingModel& building);
 
-/// Replaces the circles and ellipses below trimmed curves by polylines, before the geometry is converted:
-/// IFC++ measures trimming points in the world's axes in place of the conic's, loses those at its height, and
-/// trims no ellipse. Segments of composite curves that run against their curve (SameSense) are turned round.
-void replace_arcs(BuildingModel& building, RepresentationConverter& converter);
+/// Replaces what lies below trimmed curves by polylines, before the geometry is converted: IFC++ measures
+/// trimming points of circles in the world's axes in place of the conic's, loses those at its height, trims
+/// neither ellipses nor B-splines nor polylines, and moves the end of a line that is trimmed at its
+/// beginning. B-splines are made straight between their points (ifc_splines.h). Segments of composite curves
+/// that run against their curve (SameSense) are turned round.
+void replace_trimmed_curves(BuildingModel& building, RepresentationConverter& converter);
 
 }  // namespace parvis::scene

@@ -1,43 +1,42 @@
 #include "formats/ifc/ifc_edge_loops.h"
 
 #include <fmt/format.h>
-#include <ifcpp/IFC4/include/IfcAxis2Placement3D.h>
+#include <ifcpp/IFC4/include/IfcAdvancedBrepWithVoids.h>
 #include <ifcpp/IFC4/include/IfcBoolean.h>
 #include <ifcpp/IFC4/include/IfcCartesianPoint.h>
 #include <ifcpp/IFC4/include/IfcClosedShell.h>
-#include <ifcpp/IFC4/include/IfcCylindricalSurface.h>
 #include <ifcpp/IFC4/include/IfcEdgeCurve.h>
 #include <ifcpp/IFC4/include/IfcEdgeLoop.h>
 #include <ifcpp/IFC4/include/IfcFaceOuterBound.h>
 #include <ifcpp/IFC4/include/IfcFaceSurface.h>
 #include <ifcpp/IFC4/include/IfcFacetedBrep.h>
+#include <ifcpp/IFC4/include/IfcFacetedBrepWithVoids.h>
 #include <ifcpp/IFC4/include/IfcLengthMeasure.h>
 #include <ifcpp/IFC4/include/IfcLine.h>
 #include <ifcpp/IFC4/include/IfcManifoldSolidBrep.h>
 #include <ifcpp/IFC4/include/IfcOrientedEdge.h>
 #include <ifcpp/IFC4/include/IfcPlane.h>
 #include <ifcpp/IFC4/include/IfcPolyLoop.h>
-#include <ifcpp/IFC4/include/IfcPositiveLengthMeasure.h>
+#include <ifcpp/IFC4/include/IfcSurfaceCurve.h>
+#include <ifcpp/IFC4/include/IfcVertexLoop.h>
 #include <ifcpp/IFC4/include/IfcVertexPoint.h>
 #include <ifcpp/geometry/Carve/GeometryConverter.h>
 #include <ifcpp/model/BuildingModel.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <optional>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "formats/ifc/ifc_arcs.h"
 #include "formats/ifc/ifc_breps.h"
+#include "formats/ifc/ifc_curved_surfaces.h"
 
 namespace parvis::scene {
 namespace {
 
-using glm::dvec2, glm::dvec3;
-
-constexpr double full_turn = 2.0 * std::numbers::pi, strip = std::numbers::pi / 24.0, same = 1e-9;
+using glm::dvec3;
 
 bool is_true(const std::shared_ptr<IfcBoolean>& flag) { return !flag || flag->m_value; }
 
@@ -61,17 +60,35 @@ std::optional<dvec3> place_of(const std::shared_ptr<IfcVertex>& vertex, double u
 Ring between_ends(const IfcEdgeCurve& edge, dvec3 start, dvec3 end, RepresentationConverter& converter,
                   double unit_m) {
   std::shared_ptr<IfcCurve> curve = edge.m_EdgeGeometry;
+  if (const auto* on_surfaces = dynamic_cast<const IfcSurfaceCurve*>(curve.get()))
+    curve = on_surfaces->m_Curve3D;
   if (!curve || dynamic_cast<const IfcLine*>(curve.get())) return {};
-  if (std::optional<Ring> arc =
-          arc_between(*curve, {start, end}, is_true(edge.m_SameSense), converter, unit_m))
+  const bool is_forward = is_true(edge.m_SameSense);
+  if (std::optional<Ring> arc = arc_between(*curve, {start, end}, is_forward, converter, unit_m))
     return *std::move(arc);
   std::vector<vec3> points, starts;
   converter.getCurveConverter()->convertIfcCurve(curve, points, starts);
   Ring ring;
   for (const vec3& point : points) ring.emplace_back(point.x, point.y, point.z);
   if (ring.size() < 3) return {};
-  if (glm::distance(ring.front(), start) > glm::distance(ring.back(), start)) std::ranges::reverse(ring);
-  return Ring(ring.begin() + 1, ring.end() - 1);
+  const auto nearest = [&](dvec3 place) {
+    return std::ranges::min_element(ring, {}, [&](dvec3 point) { return glm::distance(point, place); });
+  };
+  constexpr double same_m = 1e-6;
+  const bool is_closed = glm::distance(ring.front(), ring.back()) < same_m;
+  if (is_closed) {  // it begins anywhere on the curve
+    ring.pop_back();
+    if (!is_forward) std::ranges::reverse(ring);
+    std::ranges::rotate(ring, nearest(start));
+    if (glm::distance(start, end) >= same_m) ring.erase(nearest(end), ring.end());
+    return Ring(ring.begin() + 1, ring.end());
+  }
+  auto from = nearest(start), to = nearest(end);
+  const bool runs_back = from > to;
+  if (runs_back) std::swap(from, to);
+  if (to - from < 2) return {};
+  Ring between(from + 1, to);
+  return runs_back ? reversed(std::move(between)) : between;
 }
 
 /// Appends the points of an edge as it is run through, its last one left out. False where it has no ends.
@@ -108,7 +125,9 @@ std::vector<Ring> rings_of_face(const IfcFace& face, RepresentationConverter& co
         if (!place) return {};
         ring.push_back(*place);
       }
-    if (ring.size() < 2) return {};
+    if (const auto* vertex = bound ? dynamic_cast<const IfcVertexLoop*>(bound->m_Bound.get()) : nullptr)
+      if (const std::optional<dvec3> place = place_of(vertex->m_LoopVertex, unit_m)) ring.push_back(*place);
+    if (ring.empty()) return {};
     if (!is_true(bound->m_Orientation)) std::ranges::reverse(ring);
     const bool is_outer = dynamic_cast<const IfcFaceOuterBound*>(bound.get()) != nullptr;
     rings.insert(is_outer ? rings.begin() : rings.end(), std::move(ring));
@@ -116,132 +135,64 @@ std::vector<Ring> rings_of_face(const IfcFace& face, RepresentationConverter& co
   return rings;
 }
 
-/// A cylinder that is rolled out: points of it are angles about its axis and heights along it.
-class Cylinder {
- public:
-  Cylinder(const IfcCylindricalSurface& surface, RepresentationConverter& converter, double unit_m)
-      : radius_(metres_of(surface.m_Radius, unit_m)) {
-    std::shared_ptr<TransformData> position;
-    if (surface.m_Position)
-      converter.getPlacementConverter()->convertIfcAxis2Placement3D(surface.m_Position, position);
-    if (!position) return;
-    for (int column = 0; column < 4; ++column)
-      for (int row = 0; row < 3; ++row) frame_[column][row] = position->m_matrix.m[column][row];
-  }
-  bool has_radius() const { return radius_ > 0.0; }
-  dvec2 rolled_out(dvec3 point) const {
-    const dvec3 from = point - frame_[3];
-    return {std::atan2(glm::dot(from, frame_[1]), glm::dot(from, frame_[0])), glm::dot(from, frame_[2])};
-  }
-  dvec3 point(dvec2 at) const {
-    return frame_[3] + radius_ * (std::cos(at.x) * frame_[0] + std::sin(at.x) * frame_[1]) + at.y * frame_[2];
-  }
-
- private:
-  double radius_;
-  glm::dmat4x3 frame_{dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1), dvec3(0.0)};
-};
-
-/// A side of a rolled-out ring, from the lesser angle to the greater one.
-struct Side {
-  dvec2 from, to;
-};
-
-std::vector<Side> sides_of(const std::vector<Ring>& rings, const Cylinder& cylinder) {
-  std::vector<Side> sides;
-  for (const Ring& ring : rings)
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const dvec2 a = cylinder.rolled_out(ring[i]);
-      dvec2 b = cylinder.rolled_out(ring[(i + 1) % ring.size()]);
-      b.x = a.x + std::remainder(b.x - a.x, full_turn);
-      if (std::abs(b.x - a.x) < same) continue;  // along the cylinder: between two strips
-      sides.push_back(a.x < b.x ? Side{a, b} : Side{b, a});
-    }
-  return sides;
-}
-
-/// Heights at which a side crosses the beginning and the end of a strip; nothing where it does not.
-std::optional<dvec2> crossing(const Side& side, double begin, double end) {
-  const double middle = 0.5 * (begin + end);
-  const double turn = full_turn * std::ceil((side.from.x - middle) / full_turn);
-  if (middle + turn > side.to.x) return std::nullopt;
-  const auto at = [&](double angle) {
-    return glm::mix(side.from.y, side.to.y, (angle + turn - side.from.x) / (side.to.x - side.from.x));
-  };
-  return dvec2(at(begin), at(end));
-}
-
-/// The part of a strip between two heights at its beginning and at its end.
-void add_strip(const Cylinder& cylinder, dvec2 angles, dvec2 low, dvec2 high, bool faces_out, Faces& faces) {
-  const int pieces = std::max(1, int(std::ceil((angles.y - angles.x) / strip - 1e-6)));
-  const auto add = [&](Ring triangle) {
-    faces.push_back({faces_out ? std::move(triangle) : reversed(std::move(triangle))});
-  };
-  for (int i = 0; i < pieces; ++i) {
-    const double a = double(i) / pieces, b = double(i + 1) / pieces;
-    const auto at = [&](double along, dvec2 heights) {
-      return cylinder.point({glm::mix(angles.x, angles.y, along), glm::mix(heights.x, heights.y, along)});
-    };
-    const dvec3 a0 = at(a, low), a1 = at(a, high), b0 = at(b, low), b1 = at(b, high);
-    if (glm::distance(b0, b1) > same) add({a0, b0, b1});
-    if (glm::distance(a0, a1) > same) add({a0, b1, a1});
-  }
-}
-
-/// A face on a cylinder, by strips between the angles of its corners; between pairs of sides it is filled.
-void add_on_cylinder(const std::vector<Ring>& rings, const Cylinder& cylinder, bool faces_out, Faces& faces) {
-  const std::vector<Side> sides = sides_of(rings, cylinder);
-  std::vector<double> angles;
-  for (const Side& side : sides)
-    for (const double angle : {side.from.x, side.to.x})
-      angles.push_back(angle - full_turn * std::floor(angle / full_turn));
-  std::ranges::sort(angles);
-  angles.erase(std::unique(angles.begin(), angles.end(), [](double a, double b) { return b - a < same; }),
-               angles.end());
-  for (std::size_t i = 0; i < angles.size(); ++i) {
-    const dvec2 strip_angles(angles[i], i + 1 < angles.size() ? angles[i + 1] : angles.front() + full_turn);
-    if (strip_angles.y - strip_angles.x < same) continue;
-    std::vector<dvec2> crossings;
-    for (const Side& side : sides)
-      if (const std::optional<dvec2> heights = crossing(side, strip_angles.x, strip_angles.y))
-        crossings.push_back(*heights);
-    std::ranges::sort(crossings, {}, [](dvec2 heights) { return heights.x + heights.y; });
-    for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
-      add_strip(cylinder, strip_angles, crossings[k], crossings[k + 1], faces_out, faces);
-  }
-}
-
-bool has_edge_loops(const IfcManifoldSolidBrep& brep) {
+/// Is it one of which IFC++ makes nothing, or not all?
+bool is_lost(const IfcManifoldSolidBrep& brep) {
   if (!brep.m_Outer) return false;
+  if (dynamic_cast<const IfcFacetedBrepWithVoids*>(&brep)) return true;
   return std::ranges::any_of(brep.m_Outer->m_CfsFaces, [](const auto& face) {
     return face && std::ranges::any_of(face->m_Bounds, [](const auto& bound) {
-             return bound && dynamic_cast<const IfcEdgeLoop*>(bound->m_Bound.get());
+             return bound && !dynamic_cast<const IfcPolyLoop*>(bound->m_Bound.get());
            });
   });
 }
 
-/// The faces of a body; the kinds of those that are left out.
-Faces faces_of(const IfcManifoldSolidBrep& brep, RepresentationConverter& converter, double unit_m,
+/// Appends the faces of a shell; the kinds of those that are left out.
+void add_faces(const IfcClosedShell& shell, RepresentationConverter& converter, double unit_m, Faces& faces,
                std::set<std::string>& left_out) {
-  Faces faces;
-  for (const auto& face : brep.m_Outer->m_CfsFaces) {
+  for (const auto& face : shell.m_CfsFaces) {
     if (!face) continue;
     std::vector<Ring> rings = rings_of_face(*face, converter, unit_m);
     const auto* on_surface = dynamic_cast<const IfcFaceSurface*>(face.get());
     const IfcSurface* surface = on_surface ? on_surface->m_FaceSurface.get() : nullptr;
-    const auto* round = dynamic_cast<const IfcCylindricalSurface*>(surface);
-    const bool is_plane = !surface || dynamic_cast<const IfcPlane*>(surface);
     if (rings.empty()) {
       left_out.insert("bounds of a kind that is not read");
-    } else if (round) {
-      const Cylinder cylinder(*round, converter, unit_m);
-      if (cylinder.has_radius()) add_on_cylinder(rings, cylinder, is_true(on_surface->m_SameSense), faces);
-    } else if (is_plane) {
+    } else if (!surface || dynamic_cast<const IfcPlane*>(surface)) {
       std::erase_if(rings, [](const Ring& ring) { return ring.size() < 3; });
       if (!rings.empty()) faces.push_back(std::move(rings));
+    } else if (auto curved = curved_surface(*surface, converter, unit_m)) {
+      add_curved_face(rings, std::move(curved), is_true(on_surface->m_SameSense), faces);
     } else {
       left_out.insert(dynamic_cast<const BuildingEntity*>(surface)->className());
     }
+  }
+}
+
+/// Six times the volume of faces that enclose one.
+double volume_of(std::span<const std::vector<Ring>> faces) {
+  double volume = 0.0;
+  for (const std::vector<Ring>& rings : faces)
+    for (const Ring& ring : rings)
+      for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+        volume += glm::dot(ring[0], glm::cross(ring[i], ring[i + 1]));
+  return volume;
+}
+
+/// The faces of a body, those of its voids seen from within; the kinds of those that are left out.
+Faces faces_of(const IfcManifoldSolidBrep& brep, RepresentationConverter& converter, double unit_m,
+               std::set<std::string>& left_out) {
+  Faces faces;
+  add_faces(*brep.m_Outer, converter, unit_m, faces, left_out);
+  std::vector<std::shared_ptr<IfcClosedShell>> voids;
+  if (const auto* plain = dynamic_cast<const IfcFacetedBrepWithVoids*>(&brep)) voids = plain->m_Voids;
+  if (const auto* advanced = dynamic_cast<const IfcAdvancedBrepWithVoids*>(&brep)) voids = advanced->m_Voids;
+  for (const auto& shell : voids) {
+    if (!shell) continue;
+    const std::size_t first = faces.size();
+    add_faces(*shell, converter, unit_m, faces, left_out);
+    const auto added = std::span(faces).subspan(first);
+    if (volume_of(added) > 0.0)
+      for (std::vector<Ring>& rings : added)
+        for (Ring& ring : rings) std::ranges::reverse(ring);
   }
   return faces;
 }
@@ -254,7 +205,7 @@ void replace_edge_loops(BuildingModel& building, RepresentationConverter& conver
   ReplacedBodies replaced;
   for (const auto& [id, entity] : building.getMapIfcEntities()) {
     const auto* brep = dynamic_cast<const IfcManifoldSolidBrep*>(entity.get());
-    if (!brep || !has_edge_loops(*brep)) continue;
+    if (!brep || !is_lost(*brep)) continue;
     std::set<std::string> left_out;
     try {
       if (const Faces faces = faces_of(*brep, converter, unit_m, left_out); !faces.empty())

@@ -413,8 +413,9 @@ Result<IfcBodies> bodies_of(std::string text, const std::string& name, Errors& w
     settings.setNumVerticesPerCircleGivenRadius([](double radius) {
       return radius < small_circle_m ? corners_of_small_circle : corners_of_large_circle;
     });
+    settings.setNumVerticesPerControlPoint(1);  // of straightened splines
     settle_unit_of_angles(*building);
-    replace_arcs(*building, *converter.getRepresentationConverter());
+    replace_trimmed_curves(*building, *converter.getRepresentationConverter());
     replace_profiles(*building, *converter.getRepresentationConverter());
     replace_face_sets(*building);
     replace_edge_loops(*building, *converter.getRepresentationConverter(),
