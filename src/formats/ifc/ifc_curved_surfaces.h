@@ -19,7 +19,7 @@ namespace parvis::scene {
 struct SurfaceParameter {
   double period = 0.0;  ///< after which the surface comes round; 0: it does not
   double step = std::numeric_limits<double>::infinity();  ///< at most between two corners, at multiples of it
-  std::vector<double> lines;  ///< in place of `step`: values at which the surface bends, rising
+  std::vector<double> lines;  ///< in place of `step`: values of its kinks and divisions, rising
 };
 
 /// A surface without its bounds. Where u grows to the right and v upward, it is seen from its front.
@@ -30,6 +30,7 @@ class CurvedSurface {
   CurvedSurface& operator=(const CurvedSurface&) = delete;
   virtual ~CurvedSurface() = default;
 
+  /// The point at two parameters, metres.
   virtual glm::dvec3 point(glm::dvec2 at) const = 0;
   /// Where a point lies on it, or nearest to it; of periodic ones any of the values.
   virtual glm::dvec2 parameters(glm::dvec3 point) const = 0;

@@ -41,7 +41,9 @@ struct SplineCurve {
   SplineBasis basis;
   std::vector<glm::dvec4> controls;  ///< times their weight, which is the last component
 
+  /// Nothing where knots, weights or points are wrong.
   static std::optional<SplineCurve> of(const IfcBSplineCurve& curve, double unit_m);
+  /// The point at a parameter, which is clamped to its ends.
   glm::dvec3 point(double parameter) const;
 };
 
@@ -50,7 +52,9 @@ struct SplineSurface {
   std::array<SplineBasis, 2> bases;
   std::vector<std::vector<glm::dvec4>> controls;  ///< by u, then v
 
+  /// Nothing where knots, weights or points are wrong.
   static std::optional<SplineSurface> of(const IfcBSplineSurface& surface, double unit_m);
+  /// The point at two parameters, which are clamped to its ends.
   glm::dvec3 point(glm::dvec2 parameters) const;
 };
 
