@@ -369,6 +369,11 @@ TEST(IfcBodies, FacesLieOnSpheres) {
                                         floor}),
                 2.0 / 3.0 * pi, chords * 2.0 / 3.0 * pi)
         << loop;
+  std::string shell = shell_of({one_loop + "#{n}1=IFCSPHERICALSURFACE(#4,1.);\n#{n}3=IFCEDGELOOP((#75));\n"});
+  shell.replace(shell.find("#40=IFCADVANCEDBREP(#60)"), 24, "#40=IFCSHELLBASEDSURFACEMODEL((#60))");
+  const ReadIfc cupola = read_text(one_object("IFCROOF", shell + edges));
+  EXPECT_EQ(cupola.warnings, "");
+  EXPECT_NEAR(volume_m3(*cupola.model), 2.0 / 3.0 * pi, chords * 2.0 / 3.0 * pi) << "of a surface model";
   const std::string cone = one_loop + R"(#{n}1=IFCSURFACEOFREVOLUTION(#80,#70,#81);
 #{n}3=IFCEDGELOOP((#75));
 #80=IFCARBITRARYOPENPROFILEDEF(.CURVE.,$,#82);

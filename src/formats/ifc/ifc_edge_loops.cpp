@@ -7,6 +7,7 @@
 #include <ifcpp/IFC4/include/IfcClosedShell.h>
 #include <ifcpp/IFC4/include/IfcEdgeCurve.h>
 #include <ifcpp/IFC4/include/IfcEdgeLoop.h>
+#include <ifcpp/IFC4/include/IfcFaceBasedSurfaceModel.h>
 #include <ifcpp/IFC4/include/IfcFaceOuterBound.h>
 #include <ifcpp/IFC4/include/IfcFaceSurface.h>
 #include <ifcpp/IFC4/include/IfcFacetedBrep.h>
@@ -17,6 +18,7 @@
 #include <ifcpp/IFC4/include/IfcOrientedEdge.h>
 #include <ifcpp/IFC4/include/IfcPlane.h>
 #include <ifcpp/IFC4/include/IfcPolyLoop.h>
+#include <ifcpp/IFC4/include/IfcShellBasedSurfaceModel.h>
 #include <ifcpp/IFC4/include/IfcSurfaceCurve.h>
 #include <ifcpp/IFC4/include/IfcVertexLoop.h>
 #include <ifcpp/IFC4/include/IfcVertexPoint.h>
@@ -24,6 +26,7 @@
 #include <ifcpp/model/BuildingModel.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 #include <span>
@@ -135,20 +138,42 @@ std::vector<Ring> rings_of_face(const IfcFace& face, RepresentationConverter& co
   return rings;
 }
 
+struct Shell {
+  std::shared_ptr<IfcConnectedFaceSet> faces;
+  bool is_void = false;
+};
+
+/// The shells of a body, null ones left out; none where the entity is no body of faces.
+std::vector<Shell> shells_of(const BuildingEntity* entity) {
+  std::vector<Shell> shells;
+  const auto add = [&](const auto& list, bool are_voids) {
+    for (const auto& each : list)
+      if (auto faces = std::dynamic_pointer_cast<IfcConnectedFaceSet>(each))
+        shells.push_back({std::move(faces), are_voids});
+  };
+  if (const auto* brep = dynamic_cast<const IfcManifoldSolidBrep*>(entity))
+    add(std::array{brep->m_Outer}, false);
+  if (const auto* brep = dynamic_cast<const IfcFacetedBrepWithVoids*>(entity)) add(brep->m_Voids, true);
+  if (const auto* brep = dynamic_cast<const IfcAdvancedBrepWithVoids*>(entity)) add(brep->m_Voids, true);
+  if (const auto* model = dynamic_cast<const IfcShellBasedSurfaceModel*>(entity))
+    add(model->m_SbsmBoundary, false);
+  if (const auto* model = dynamic_cast<const IfcFaceBasedSurfaceModel*>(entity))
+    add(model->m_FbsmFaces, false);
+  return shells;
+}
+
 /// Is it one of which IFC++ makes nothing, or not all?
-bool is_lost(const IfcManifoldSolidBrep& brep) {
-  if (!brep.m_Outer) return false;
-  if (dynamic_cast<const IfcFacetedBrepWithVoids*>(&brep)) return true;
-  return std::ranges::any_of(brep.m_Outer->m_CfsFaces, [](const auto& face) {
-    return face && std::ranges::any_of(face->m_Bounds, [](const auto& bound) {
-             return bound && !dynamic_cast<const IfcPolyLoop*>(bound->m_Bound.get());
-           });
-  });
+bool is_lost(const Shell& shell) {
+  return shell.is_void || std::ranges::any_of(shell.faces->m_CfsFaces, [](const auto& face) {
+           return face && std::ranges::any_of(face->m_Bounds, [](const auto& bound) {
+                    return bound && !dynamic_cast<const IfcPolyLoop*>(bound->m_Bound.get());
+                  });
+         });
 }
 
 /// Appends the faces of a shell; the kinds of those that are left out.
-void add_faces(const IfcClosedShell& shell, RepresentationConverter& converter, double unit_m, Faces& faces,
-               std::set<std::string>& left_out) {
+void add_faces(const IfcConnectedFaceSet& shell, RepresentationConverter& converter, double unit_m,
+               Faces& faces, std::set<std::string>& left_out) {
   for (const auto& face : shell.m_CfsFaces) {
     if (!face) continue;
     std::vector<Ring> rings = rings_of_face(*face, converter, unit_m);
@@ -159,10 +184,11 @@ void add_faces(const IfcClosedShell& shell, RepresentationConverter& converter, 
     } else if (!surface || dynamic_cast<const IfcPlane*>(surface)) {
       std::erase_if(rings, [](const Ring& ring) { return ring.size() < 3; });
       if (!rings.empty()) faces.push_back(std::move(rings));
-    } else if (auto curved = curved_surface(*surface, converter, unit_m)) {
-      add_curved_face(rings, std::move(curved), is_true(on_surface->m_SameSense), faces);
     } else {
-      left_out.insert(dynamic_cast<const BuildingEntity*>(surface)->className());
+      const std::size_t before = faces.size();
+      if (auto curved = curved_surface(*surface, converter, unit_m))
+        add_curved_face(rings, std::move(curved), is_true(on_surface->m_SameSense), faces);
+      if (faces.size() == before) left_out.insert(dynamic_cast<const BuildingEntity*>(surface)->className());
     }
   }
 }
@@ -178,19 +204,14 @@ double volume_of(std::span<const std::vector<Ring>> faces) {
 }
 
 /// The faces of a body, those of its voids seen from within; the kinds of those that are left out.
-Faces faces_of(const IfcManifoldSolidBrep& brep, RepresentationConverter& converter, double unit_m,
+Faces faces_of(const std::vector<Shell>& shells, RepresentationConverter& converter, double unit_m,
                std::set<std::string>& left_out) {
   Faces faces;
-  add_faces(*brep.m_Outer, converter, unit_m, faces, left_out);
-  std::vector<std::shared_ptr<IfcClosedShell>> voids;
-  if (const auto* plain = dynamic_cast<const IfcFacetedBrepWithVoids*>(&brep)) voids = plain->m_Voids;
-  if (const auto* advanced = dynamic_cast<const IfcAdvancedBrepWithVoids*>(&brep)) voids = advanced->m_Voids;
-  for (const auto& shell : voids) {
-    if (!shell) continue;
+  for (const Shell& shell : shells) {
     const std::size_t first = faces.size();
-    add_faces(*shell, converter, unit_m, faces, left_out);
+    add_faces(*shell.faces, converter, unit_m, faces, left_out);
     const auto added = std::span(faces).subspan(first);
-    if (volume_of(added) > 0.0)
+    if (shell.is_void && volume_of(added) > 0.0)
       for (std::vector<Ring>& rings : added)
         for (Ring& ring : rings) std::ranges::reverse(ring);
   }
@@ -204,11 +225,11 @@ void replace_edge_loops(BuildingModel& building, RepresentationConverter& conver
   const double unit_m = building.getUnitConverter()->getLengthInMeterFactor();
   ReplacedBodies replaced;
   for (const auto& [id, entity] : building.getMapIfcEntities()) {
-    const auto* brep = dynamic_cast<const IfcManifoldSolidBrep*>(entity.get());
-    if (!brep || !is_lost(*brep)) continue;
+    const std::vector<Shell> shells = shells_of(entity.get());
+    if (std::ranges::none_of(shells, is_lost)) continue;
     std::set<std::string> left_out;
     try {
-      if (const Faces faces = faces_of(*brep, converter, unit_m, left_out); !faces.empty())
+      if (const Faces faces = faces_of(shells, converter, unit_m, left_out); !faces.empty())
         replaced.add(*entity, brep_of(faces, unit_m));
     } catch (const std::exception& failure) {  // of IFC++: a curve that it cannot follow
       left_out.insert(failure.what());
