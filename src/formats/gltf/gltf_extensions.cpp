@@ -57,6 +57,8 @@ void count_extensions(const GltfFile& file, FileAccount& account) {
     if (name == nullptr) continue;
     if (is_read(*name))
       account.used("extensions");
+    else if (*name == "FB_ngon_encoding")
+      account.unneeded("extensions", "which triangles were one polygon is not shown", *name);
     else
       account.left_out("extensions", "not read", *name);
   }

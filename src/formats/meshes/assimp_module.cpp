@@ -61,6 +61,12 @@ const char* name_of(aiTextureType type) {
   }
 }
 
+std::string lower_case_extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return extension;
+}
+
 /// Copies what assimp has read into a model.
 class Converter {
  public:
@@ -84,10 +90,10 @@ class Converter {
   void add_material(const aiMaterial& source) {
     Material material;
     material.name = source.GetName().C_Str();
-    aiColor3D colour(0.8f, 0.8f, 0.8f);
+    aiColor4D colour(0.8f, 0.8f, 0.8f, 1.0f);
     source.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
     material.base_colour = {colour.r, colour.g, colour.b};
-    float opacity = 1.0f, shininess = 0.0f;
+    float opacity = colours_have_alpha_ ? colour.a : 1.0f, shininess = 0.0f;
     source.Get(AI_MATKEY_OPACITY, opacity);
     source.Get(AI_MATKEY_SHININESS, shininess);
     if (opacity > 0.0f && opacity < 1.0f) material.alpha = opacity, material.alpha_mode = Alpha::blend;
@@ -285,6 +291,8 @@ class Converter {
   const fs::path& file_;
   const aiScene& source_;
   const bool has_colours_ = any_colours(source_);
+  const bool colours_have_alpha_ =
+      lower_case_extension(file_) == ".3mf" || lower_case_extension(file_) == ".x";
   FileAccount& account_;
   Errors& warnings_;
   Model model_;
@@ -333,12 +341,6 @@ void keep_importers_of(const std::string& extension, Assimp::Importer& importer)
     importer.UnregisterLoader(other);
     delete other;  // it was the importer's until now
   }
-}
-
-std::string lower_case_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return extension;
 }
 
 /// Cuts the concave polygons of a mesh into triangles: assimp cuts ears off that have another corner on their

@@ -101,6 +101,37 @@ TEST(Assimp, ColoursOfVerticesInBytesAreColours) {
     EXPECT_LT(glm::distance(colour, colour.x > 0.5f ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 0, 1, 1)), 1e-5f);
 }
 
+TEST(Assimp, ColoursOfDirectXHaveAlpha) {
+  const TestFolder folder;
+  Errors warnings;
+  const auto file = folder.write("pane.x", R"(xof 0303txt 0032
+Mesh pane {
+ 3;
+ 0.0;0.0;0.0;,
+ 1.0;0.0;0.0;,
+ 0.0;1.0;0.0;;
+ 1;
+ 3;0,1,2;;
+ MeshMaterialList {
+  1;
+  1;
+  0;;
+  Material {
+   0.2;0.4;0.6;0.25;;
+   1.0;
+   0.0;0.0;0.0;;
+   0.0;0.0;0.0;;
+  }
+ }
+}
+)");
+  const Result<Model> pane = read_with_assimp(file, formats::UpAxis::file, warnings);
+  ASSERT_TRUE(pane) << to_string(pane.errors());
+  const Material& material = pane->materials.at(std::size_t(pane->parts.at(0).material));
+  EXPECT_FLOAT_EQ(material.alpha, 0.25f);
+  EXPECT_EQ(material.alpha_mode, Alpha::blend);
+}
+
 TEST(Assimp, PlyAndStlAreBroughtNearInDoublePrecision) {
   const TestFolder folder;
   Errors warnings;
