@@ -5,6 +5,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/random.h"
@@ -171,6 +172,27 @@ void time_frames(stage::Stage& stage, const Camera& camera, int cars, int repeat
     report.add(fmt::format("frame_ms_{}_{}", methods[m].name, cars), median(samples[m]));
 }
 
+/// How far the passes of frames add up to other than the frames by the clock; the control leaves out each
+/// frame's longest pass.
+void measure_pass_times(stage::Stage& stage, const Camera& camera, Report& report) {
+  constexpr int frames = 8;
+  std::vector<double> off, off_of_others;
+  double timed_ms = 0.0;
+  for (int frame = 0; frame <= frames * gl::PassTimes::timed_every + 1; ++frame) {
+    const double ms = finished_ms([&] { stage.draw(camera, full_picture.x, full_picture.y); });
+    const int since_timed = frame % gl::PassTimes::timed_every;
+    if (since_timed == 0) timed_ms = ms;
+    if (since_timed != 1 || frame == 1) continue;  // the first frame makes what is made once
+    double sum_ms = 0.0, longest_ms = 0.0;
+    for (const gl::PassTime& pass : stage.pass_times().latest())
+      sum_ms += 1e3 * pass.seconds, longest_ms = std::max(longest_ms, 1e3 * pass.seconds);
+    off.push_back(100.0 * std::abs(sum_ms / timed_ms - 1.0));
+    off_of_others.push_back(100.0 * std::abs((sum_ms - longest_ms) / timed_ms - 1.0));
+  }
+  report.add("pass_times_off_frame_percent", *std::ranges::max_element(off));
+  report.add("pass_times_off_frame_percent_without_the_longest", *std::ranges::min_element(off_of_others));
+}
+
 /// Cars that are hidden by what stands before them: how many are culled, and whether one is that has a pixel.
 void measure_occlusion(stage::Stage& stage, std::size_t views, Report& report) {
   render::CullingCheck all;
@@ -196,7 +218,10 @@ void measure_frames(const BenchSetup& setup, Report& report) {
     const auto stage = stage_with(city, cars);
     const Camera camera = view_of_cars(*stage, minimum, maximum, full_picture, report);
     time_frames(*stage, camera, cars, setup.is_quick ? 7 : 21, report);
-    if (cars < 30) continue;
+    if (cars < 30) {
+      measure_pass_times(*stage, camera, report);
+      continue;
+    }
     measure_occlusion(*stage, setup.is_quick ? 80 : 400, report);
   }
 }

@@ -15,6 +15,12 @@ constexpr Key keys[]{
     {"false_culls", "cars", maximum(0.0), "cars with a pixel that culling leaves out"},
     {"occlusion_culled_percent", "%", {}, "hidden cars of the frustum that are culled"},
     {"triangles", "", {}, "static triangles of the paper city"},
+    {"pass_times_off_frame_percent", "%", maximum(10.0), "paper city, 1280x720, eight frames: the passes' times together against the frame by the clock, the worst", {{"pass_times_off_frame_percent_without_the_longest"}}},
+    // start
+    {"start_over_f3d", "", maximum(0.8), "the paper city's glTF file, 1280x720, one camera: parvis render over f3d 1.3.1, in turn, medians; control: f3d's longest over its shortest", {{"start_over_f3d_of_f3d"}}},
+    {"peak_memory_over_f3d", "", maximum(1.0), "the same: most memory of all processes at one moment", {{"peak_memory_over_f3d_of_16_times_the_pixels"}}},
+    {"peak_memory_over_today", "", maximum(0.5), "render of the paper's day, 1280x720, over 1.63 GB, which 4bfb91ea took", {{"peak_memory_over_today_of_16_times_the_pixels"}}},
+    {"first_window_picture_s", "s", maximum(3.0), "view of the baked paper city on a virtual display, to its end after one frame, median; control: after a hundred", {{"first_window_picture_s_of_100_frames"}}},
     // commands
     {"speedup_2_processes", "", minimum(1.7), "the whole command, the slower of a photograph and a bake, over one process", {{"speedup_2_processes_on_one_core"}}},
     {"speedup_2_processes_of_the_work", "", minimum(1.7), "the divided work alone, the slower of both, over one process", {{"speedup_2_processes_of_the_work_on_one_core"}}},

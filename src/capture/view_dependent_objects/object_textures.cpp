@@ -29,16 +29,18 @@ gl::Texture table_texture(std::vector<glm::vec4> table) {
 
 gl::Texture picture_array(const std::vector<scene::Texture>& pictures) {
   std::vector<std::vector<Image8>> levels(pictures.size());
-  parallel_for(levels.size(), [&](std::size_t i) { levels[i] = scene::mip_levels(pictures[i], 0); });
+  parallel_for(levels.size(), [&](std::size_t i) { levels[i] = scene::smaller_mip_levels(pictures[i], 0); });
   const Image8& first = pictures.front().image;
   gl::Texture array = gl::Texture::create(GLenum(GL_TEXTURE_2D_ARRAY));
   const GLuint name = array.name();
-  glTextureStorage3D(name, int(levels.front().size()), GL_SRGB8_ALPHA8, first.width, first.height,
+  glTextureStorage3D(name, 1 + int(levels.front().size()), GL_SRGB8_ALPHA8, first.width, first.height,
                      int(pictures.size()));
   for (std::size_t i = 0; i < levels.size(); ++i)
-    for (std::size_t level = 0; level < levels[i].size(); ++level)
-      glTextureSubImage3D(name, int(level), 0, 0, int(i), levels[i][level].width, levels[i][level].height, 1,
-                          GL_RGBA, GL_UNSIGNED_BYTE, levels[i][level].pixels.data());
+    for (std::size_t level = 0; level <= levels[i].size(); ++level) {
+      const Image8& image = level == 0 ? pictures[i].image : levels[i][level - 1];
+      glTextureSubImage3D(name, int(level), 0, 0, int(i), image.width, image.height, 1, GL_RGBA,
+                          GL_UNSIGNED_BYTE, image.pixels.data());
+    }
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   if (render::has_fast_anisotropy()) glTextureParameterf(name, GL_TEXTURE_MAX_ANISOTROPY, 16.0f);

@@ -12,7 +12,7 @@ void limit_textures(scene::Model& model, scene::FileAccount& account) {
   };
   for (scene::Texture& texture : model.textures) {
     if (fits(texture.image)) continue;
-    std::vector<Image8> levels = scene::mip_levels(texture, 0);
+    std::vector<Image8> levels = scene::smaller_mip_levels(texture, 0);
     account.left_out(
         "full sizes of images",
         fmt::format("graphics drivers hold {} pixels in width and height: a smaller one is shown",

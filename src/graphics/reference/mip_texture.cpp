@@ -1,6 +1,7 @@
 #include "graphics/reference/mip_texture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "scene/data/mip_levels.h"
@@ -8,10 +9,19 @@
 namespace parvis::reference {
 
 MipTexture::MipTexture(const scene::Texture& texture, int visible_alpha)
-    : levels_(scene::mip_levels(texture, visible_alpha)),
+    : source_(&texture),
+      visible_alpha_(visible_alpha),
+      level_count_(std::bit_width(unsigned(std::max({texture.image.width, texture.image.height, 1})))),
       value_of_byte_(scene::values_of_bytes(texture.is_srgb).data()),
       wrap_u_(texture.wrap_u),
       wrap_v_(texture.wrap_v) {}
+
+const Image8& MipTexture::level(int number) const {
+  if (number == 0) return source_->image;
+  std::call_once(smaller_.made,
+                 [&] { smaller_.levels = scene::smaller_mip_levels(*source_, visible_alpha_); });
+  return smaller_.levels[std::size_t(number) - 1];
+}
 
 glm::vec4 MipTexture::texel(const Image8& level, int x, int y) const {
   const std::uint8_t* p = level.at(x, y);
@@ -36,11 +46,11 @@ glm::vec4 MipTexture::bilinear(const Image8& level, glm::vec2 uv) const {
 glm::vec4 MipTexture::sample(glm::vec2 uv, float texels) const {
   uv = glm::clamp(uv, glm::vec2(-1e6f), glm::vec2(1e6f));
   uv = {scene::wrapped(uv.x, wrap_u_), scene::wrapped(uv.y, wrap_v_)};
-  const float level = std::clamp(std::log2(std::max(texels, 1.0f)), 0.0f, float(levels_.size() - 1));
-  const std::size_t fine = std::size_t(level), coarse = std::min(fine + 1, levels_.size() - 1);
-  const float t = level - float(fine);
-  const glm::vec4 first = bilinear(levels_[fine], uv);
-  return t > 0.0f ? glm::mix(first, bilinear(levels_[coarse], uv), t) : first;
+  const float at = std::clamp(std::log2(std::max(texels, 1.0f)), 0.0f, float(level_count_ - 1));
+  const int fine = int(at), coarse = std::min(fine + 1, level_count_ - 1);
+  const float t = at - float(fine);
+  const glm::vec4 first = bilinear(level(fine), uv);
+  return t > 0.0f ? glm::mix(first, bilinear(level(coarse), uv), t) : first;
 }
 
 }  // namespace parvis::reference

@@ -1,6 +1,7 @@
 #include "graphics/render/gpu_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstring>
 #include <glm/gtc/type_precision.hpp>
@@ -66,12 +67,8 @@ Pass pass_of(scene::Alpha alpha) {
   return Pass::opaque;
 }
 
-gl::Texture upload(const scene::Texture& source, const std::vector<Image8>& levels) {
-  gl::Texture texture = gl::texture_2d(source.is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, source.image.width,
-                                       source.image.height, int(levels.size()));
-  for (std::size_t level = 0; level < levels.size(); ++level)
-    glTextureSubImage2D(texture.name(), GLint(level), 0, 0, levels[level].width, levels[level].height,
-                        GL_RGBA, GL_UNSIGNED_BYTE, levels[level].pixels.data());
+gl::Texture upload(const scene::Texture& source, const std::vector<Image8>& smaller) {
+  gl::Texture texture = mipmapped(source, smaller);
   glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY, has_fast_anisotropy() ? 16.0f : 1.0f);
   constexpr GLint wraps[]{GL_REPEAT, GL_MIRRORED_REPEAT, GL_CLAMP_TO_EDGE};  // in the order of scene::Wrap
   glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, wraps[std::size_t(source.wrap_u)]);
@@ -98,6 +95,17 @@ std::uint16_t features_of(const scene::Material& material) {
 }
 
 }  // namespace
+
+gl::Texture mipmapped(const scene::Texture& source, const std::vector<Image8>& smaller) {
+  gl::Texture texture = gl::texture_2d(source.is_srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, source.image.width,
+                                       source.image.height, 1 + int(smaller.size()));
+  for (std::size_t level = 0; level <= smaller.size(); ++level) {
+    const Image8& image = level == 0 ? source.image : smaller[level - 1];
+    glTextureSubImage2D(texture.name(), GLint(level), 0, 0, image.width, image.height, GL_RGBA,
+                        GL_UNSIGNED_BYTE, image.pixels.data());
+  }
+  return texture;
+}
 
 bool has_fast_anisotropy() {
   static const bool is_fast = !gl::is_software();
@@ -291,10 +299,15 @@ void GpuScene::deform(const scene::Object& object, std::size_t o) {
 void GpuScene::upload_textures(const scene::Model& model) {
   first_texture_of_model_[&model] = textures_.size();
   const std::vector<int> visible = scene::visible_alphas(model);
-  std::vector<std::vector<Image8>> levels(model.textures.size());
-  parallel_for(levels.size(),
-               [&](std::size_t i) { levels[i] = scene::mip_levels(model.textures[i], visible[i]); });
-  for (std::size_t i = 0; i < levels.size(); ++i) textures_.push_back(upload(model.textures[i], levels[i]));
+  constexpr std::size_t at_once = 8;  // whose levels wait in memory
+  for (std::size_t first = 0; first < model.textures.size(); first += at_once) {
+    std::array<std::vector<Image8>, at_once> levels;
+    const std::size_t count = std::min(at_once, model.textures.size() - first);
+    parallel_for(count, [&](std::size_t i) {
+      levels[i] = scene::smaller_mip_levels(model.textures[first + i], visible[first + i]);
+    });
+    for (std::size_t i = 0; i < count; ++i) textures_.push_back(upload(model.textures[first + i], levels[i]));
+  }
 }
 
 /// Adds materials of a model whose textures are there. Returns the index of the first.

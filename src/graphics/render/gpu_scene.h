@@ -58,6 +58,9 @@ enum SurfaceFeature : std::uint16_t {
 /// long.
 bool has_fast_anisotropy();
 
+/// A texture of the picture and of its levels: scene::smaller_mip_levels.
+gl::Texture mipmapped(const scene::Texture& source, const std::vector<Image8>& smaller);
+
 /// A material as the GPU scene draws it; textures belong to the GPU scene.
 struct GpuMaterial {
   GLuint base_colour, normal, surface, emission,

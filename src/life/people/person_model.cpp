@@ -300,7 +300,8 @@ PersonLevels make_levels(const Someone& who, const Colours& colours) {
   PersonLevels result{BodyField(shape_of(who.person)), {}, {}};
   const HeadField head(result.body, who.head);
   std::vector<scene::Texture> list = textures(face_texture(head, who.head, 384));
-  const Image8 half = scene::mip_levels(list[0], 0)[1], small = scene::mip_levels(list[0], 0)[3];
+  const std::vector<Image8> smaller = scene::smaller_mip_levels(list[0], 0);
+  const Image8 &half = smaller[0], &small = smaller[2];
   const auto keep = [&](Detail detail, scene::Model model) {
     result.models[std::size_t(detail)] = std::make_shared<const scene::Model>(std::move(model));
   };

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "graphics/render/bindings.h"
+#include "graphics/render/gpu_scene.h"
 #include "graphics/render/screen_scale.h"
 #include "graphics/render/static_things.h"
 #include "graphics/render/stream_buffer.h"
@@ -50,12 +51,7 @@ struct DrawList {
 };
 
 gl::Texture upload(const scene::Texture& source) {
-  const std::vector<Image8> levels = scene::mip_levels(source, 0);
-  gl::Texture texture =
-      gl::texture_2d(GL_SRGB8_ALPHA8, source.image.width, source.image.height, int(levels.size()));
-  for (std::size_t i = 0; i < levels.size(); ++i)
-    glTextureSubImage2D(texture.name(), GLint(i), 0, 0, levels[i].width, levels[i].height, GL_RGBA,
-                        GL_UNSIGNED_BYTE, levels[i].pixels.data());
+  gl::Texture texture = render::mipmapped(source, scene::smaller_mip_levels(source, 0));
   glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_REPEAT);
   glTextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, GL_REPEAT);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "base/colour.h"
@@ -11,24 +12,66 @@ namespace {
 
 std::uint8_t byte(float value) { return std::uint8_t(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f))); }
 
-Image8 halved(const Image8& fine, bool is_srgb) {
-  const ByteTable& colour = values_of_bytes(is_srgb);
-  Image8 coarse(std::max(fine.width / 2, 1), std::max(fine.height / 2, 1), 4);
-  for (int y = 0; y < coarse.height; ++y)
-    for (int x = 0; x < coarse.width; ++x) {
-      const int x0 = std::min(2 * x, fine.width - 1), x1 = std::min(2 * x + 1, fine.width - 1);
-      const int y0 = std::min(2 * y, fine.height - 1), y1 = std::min(2 * y + 1, fine.height - 1);
-      const std::array<const std::uint8_t*, 4> from{fine.at(x0, y0), fine.at(x1, y0), fine.at(x0, y1),
-                                                    fine.at(x1, y1)};
-      std::uint8_t* to = coarse.at(x, y);
-      for (int c = 0; c < 3; ++c) {
-        const float mean =
-            0.25f * (colour[from[0][c]] + colour[from[1][c]] + colour[from[2][c]] + colour[from[3][c]]);
-        to[c] = byte(is_srgb ? srgb_from_linear(mean) : mean);
+/// Bytes of linear values without a power for each: of a value's step of 1/4096 the lowest byte, and the
+/// least value of each byte.
+struct BytesOfLight {
+  static constexpr float steps = 4096.0f;
+  std::array<float, 257> least;
+  std::array<std::uint8_t, std::size_t(steps) + 1> of_step;
+
+  BytesOfLight() {
+    for (std::size_t b = 0; b < least.size(); ++b) {
+      std::uint32_t low = 0, high = std::bit_cast<std::uint32_t>(2.0f);  // floats above 0 in their order
+      while (low < high) {
+        const std::uint32_t middle = (low + high) / 2;
+        if (byte(srgb_from_linear(std::bit_cast<float>(middle))) >= b)
+          high = middle;
+        else
+          low = middle + 1;
       }
-      to[3] = std::uint8_t((from[0][3] + from[1][3] + from[2][3] + from[3][3] + 2) / 4);
+      least[b] = std::bit_cast<float>(low);
     }
+    least[256] = 2.0f;  // no byte
+    for (std::size_t i = 0; i < of_step.size(); ++i) of_step[i] = byte(srgb_from_linear(float(i) / steps));
+  }
+
+  std::uint8_t operator()(float linear) const {
+    std::size_t value = of_step[std::size_t(linear * steps)];
+    while (linear >= least[value + 1]) ++value;
+    return std::uint8_t(value);
+  }
+};
+
+template <class ByteOf>
+Image8 halved(const Image8& fine, const ByteTable& colour, const ByteOf& byte_of) {
+  Image8 coarse;
+  coarse.width = std::max(fine.width / 2, 1), coarse.height = std::max(fine.height / 2, 1);
+  coarse.channels = 4;
+  coarse.pixels.resize(4 * std::size_t(coarse.width) * std::size_t(coarse.height));
+  for (int y = 0; y < coarse.height; ++y) {
+    const std::uint8_t *above = fine.at(0, std::min(2 * y, fine.height - 1)),
+                       *below = fine.at(0, std::min(2 * y + 1, fine.height - 1));
+    std::uint8_t* to = coarse.at(0, y);
+    for (int x = 0; x < coarse.width; ++x, to += 4) {
+      const int left = 4 * std::min(2 * x, fine.width - 1), right = 4 * std::min(2 * x + 1, fine.width - 1);
+      const auto bytes = [&](int c) {
+        return std::array{above[left + c], above[right + c], below[left + c], below[right + c]};
+      };
+      for (int c = 0; c < 3; ++c) {
+        const std::array<std::uint8_t, 4> of = bytes(c);
+        to[c] = byte_of(0.25f * (colour[of[0]] + colour[of[1]] + colour[of[2]] + colour[of[3]]));
+      }
+      const std::array<std::uint8_t, 4> alpha = bytes(3);
+      to[3] = std::uint8_t((alpha[0] + alpha[1] + alpha[2] + alpha[3] + 2) / 4);
+    }
+  }
   return coarse;
+}
+
+Image8 halved(const Image8& fine, bool is_srgb) {
+  static const BytesOfLight bytes_of_light;
+  const ByteTable& colour = values_of_bytes(is_srgb);
+  return is_srgb ? halved(fine, colour, bytes_of_light) : halved(fine, colour, byte);
 }
 
 double texels(const Image8& image) { return double(image.width) * double(image.height); }
@@ -91,14 +134,17 @@ std::vector<int> visible_alphas(const Model& model) {
   return visible;
 }
 
-std::vector<Image8> mip_levels(const Texture& texture, int visible_alpha) {
-  std::vector<Image8> levels{texture.image};
-  while (levels.back().width > 1 || levels.back().height > 1)
-    levels.push_back(halved(levels.back(), texture.is_srgb));
+std::vector<Image8> smaller_mip_levels(const Texture& texture, int visible_alpha) {
+  std::vector<Image8> levels;
+  const Image8* finer = &texture.image;
+  while (finer->width > 1 || finer->height > 1) {
+    Image8 next = halved(*finer, texture.is_srgb);
+    finer = &levels.emplace_back(std::move(next));
+  }
   if (visible_alpha == 0) return levels;
-  const double coverage = double(visible_texels(levels[0], visible_alpha)) / texels(levels[0]);
+  const double coverage = double(visible_texels(texture.image, visible_alpha)) / texels(texture.image);
   if (coverage <= 0.0 || coverage >= 1.0) return levels;
-  for (std::size_t i = 1; i < levels.size(); ++i) keep_coverage(levels[i], coverage, visible_alpha);
+  for (Image8& level : levels) keep_coverage(level, coverage, visible_alpha);
   return levels;
 }
 

@@ -17,9 +17,9 @@ const ByteTable& values_of_bytes(bool is_srgb);
 /// from which on its texels are visible; else 0.
 std::vector<int> visible_alphas(const Model& model);
 
-/// All mipmap levels of a texture, box-filtered over 2 x 2 texels in linear light. For cutout textures, alpha
-/// of each level is scaled so that the fraction of texels at `visible_alpha` and above is that of level 0
-/// (Castano 2010, Computing Alpha Mipmaps): distant leaves neither thin out nor swell.
-std::vector<Image8> mip_levels(const Texture& texture, int visible_alpha);
+/// The mipmap levels of a texture below its picture, box-filtered over 2 x 2 texels in linear light. For
+/// cutout textures, alpha of each level is scaled so that the fraction of texels at `visible_alpha` and above
+/// is that of level 0 (Castano 2010, Computing Alpha Mipmaps): distant leaves neither thin out nor swell.
+std::vector<Image8> smaller_mip_levels(const Texture& texture, int visible_alpha);
 
 }  // namespace parvis::scene
