@@ -18,9 +18,9 @@ MipTexture::MipTexture(const scene::Texture& texture, int visible_alpha)
 
 const Image8& MipTexture::level(int number) const {
   if (number == 0) return source_->image;
-  std::call_once(smaller_.made,
-                 [&] { smaller_.levels = scene::smaller_mip_levels(*source_, visible_alpha_); });
-  return smaller_.levels[std::size_t(number) - 1];
+  std::call_once(smaller_->made,
+                 [&] { smaller_->levels = scene::smaller_mip_levels(*source_, visible_alpha_); });
+  return smaller_->levels[std::size_t(number) - 1];
 }
 
 glm::vec4 MipTexture::texel(const Image8& level, int x, int y) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -34,7 +35,7 @@ class MipTexture {
 
   const scene::Texture* source_;
   int visible_alpha_, level_count_;
-  mutable Smaller smaller_;
+  std::unique_ptr<Smaller> smaller_ = std::make_unique<Smaller>();
   const float* value_of_byte_;  ///< of colour channels
   scene::Wrap wrap_u_, wrap_v_;
 };

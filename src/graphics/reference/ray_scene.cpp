@@ -288,10 +288,10 @@ RayScene::~RayScene() {
   rtcReleaseDevice(device_);
 }
 
-const std::deque<MipTexture>& RayScene::textures_of(const scene::Model& model) {
+const std::vector<MipTexture>& RayScene::textures_of(const scene::Model& model) {
   auto& textures = textures_[&model];
   if (textures) return *textures;
-  textures = std::make_unique<std::deque<MipTexture>>();
+  textures = std::make_unique<std::vector<MipTexture>>();
   const std::vector<int> visible = scene::visible_alphas(model);
   for (std::size_t t = 0; t < model.textures.size(); ++t)
     textures->emplace_back(model.textures[t], visible[t]);

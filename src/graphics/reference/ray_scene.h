@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -38,9 +37,9 @@ struct Ray {
 struct PlacedPart {
   const Mesh* mesh;  ///< the part's, or the object's deformed one
   const scene::Material* material;
-  const std::deque<MipTexture>* textures;  ///< of its model
-  const scene::TracedSurface* surface;     ///< in place of material and textures; null: they hold
-  std::span<const float> openness = {};    ///< of foliage, by vertex: scene::LeafOpenness
+  const std::vector<MipTexture>* textures;  ///< of its model
+  const scene::TracedSurface* surface;      ///< in place of material and textures; null: they hold
+  std::span<const float> openness = {};     ///< of foliage, by vertex: scene::LeafOpenness
   glm::mat4 world_from_mesh;
   glm::mat3 world_from_normal;
   int part = 0;  ///< of the object's model
@@ -163,7 +162,7 @@ class RayScene {
                            bool is_filtered) const;
   static void set_corners(const Mesh& mesh, const glm::mat4& transform, float margin, glm::vec3* corners);
   float margin_in_mesh(const glm::mat4& world_from_mesh) const;
-  const std::deque<MipTexture>& textures_of(const scene::Model& model);
+  const std::vector<MipTexture>& textures_of(const scene::Model& model);
   bool is_to_be_filtered(const PlacedPart& part) const;
   RTCSceneTy* mesh_scene(const Mesh& mesh, const glm::mat4& world_from_mesh, bool is_filtered);
   void deform(std::size_t place);
@@ -180,7 +179,7 @@ class RayScene {
   std::size_t object_places_ = 0;                    ///< how many of them are parts of objects
   std::size_t object_count_ = 0;                     ///< of the scene
   std::map<std::pair<const Mesh*, bool>, RTCSceneTy*> mesh_scenes_;  ///< with filters and without
-  std::unordered_map<const scene::Model*, std::unique_ptr<std::deque<MipTexture>>> textures_;
+  std::unordered_map<const scene::Model*, std::unique_ptr<std::vector<MipTexture>>> textures_;
   std::vector<std::shared_ptr<const void>> kept_;  ///< meshes, models and surfaces of traced things
   std::vector<Bounds> moved_;
   std::size_t triangle_count_ = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/bounds.h"
+#include "base/parallel.h"
 #include "land/roads/road_from_polygons.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/path.h"
@@ -398,10 +399,12 @@ View street_view(const scene::Scene& scene, const scene::PlaceHeights& place,
   constexpr float good_enough = 0.05f;
   const Judge judge(scene, place);
   const std::vector<Stand> stands = roads.empty() ? stands_in_the_open(place) : stands_on(roads, place);
-  float best = 0.0f;
-  const Stand* chosen = nullptr;
-  for (const Stand& stand : stands)
-    if (const float score = judge.score(stand); score > best) best = score, chosen = &stand;
+  std::vector<float> scores(stands.size());
+  parallel_for(
+      stands.size(), [&](std::size_t i) { scores[i] = judge.score(stands[i]); }, 16);
+  const auto highest = std::ranges::max_element(scores);
+  const float best = scores.empty() ? 0.0f : *highest;
+  const Stand* chosen = best > 0.0f ? &stands[std::size_t(highest - scores.begin())] : nullptr;
   if (chosen == nullptr || (roads.empty() && best < good_enough)) return outside_view(scene, place);
   const View along = view_of(*chosen, place);
   return roads.empty() ? judge.aimed(*chosen, along.eye) : along;

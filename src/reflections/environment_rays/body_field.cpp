@@ -62,6 +62,8 @@ struct Face {
   glm::vec2 uvs[3];
   vec3 tints[3];  ///< colours of the vertices
   const scene::Material* material;
+  vec3 centre;  ///< of a ball about it
+  float radius_m;
 
   vec3 at(vec3 shares) const { return shares.x * corners[0] + shares.y * corners[1] + shares.z * corners[2]; }
 };
@@ -86,6 +88,9 @@ std::vector<Face> solid_faces(const scene::Model& model, const std::vector<scene
       const float length = glm::length(normal);
       if (!(length > 0.0f)) continue;
       face.normal = normal / length;
+      face.centre = (face.corners[0] + face.corners[1] + face.corners[2]) / 3.0f;
+      for (const vec3 corner : face.corners)
+        face.radius_m = std::max(face.radius_m, glm::distance(corner, face.centre));
       faces.push_back(face);
     }
   }
@@ -139,11 +144,18 @@ struct Grid {
 
 /// Takes a face over into a cell where it is the nearest so far, and within reach.
 void offer(const Face& face, int index, vec3 middle, float reach_m, Nearest& known) {
+  constexpr float alike_m = 1e-4f;
+  const float farthest_m = std::min(known.distance_m + alike_m, reach_m);
+  // Most faces are too far by their ball or by their plane; the margin is for rounding.
+  const vec3 from_centre = middle - face.centre;
+  const float to_ball_m = farthest_m + face.radius_m + 0.1f * alike_m;
+  if (dot(from_centre, from_centre) > to_ball_m * to_ball_m ||
+      std::abs(dot(from_centre, face.normal)) > farthest_m + 0.1f * alike_m)
+    return;
   const vec3 shares = nearest_shares(middle, face.corners[0], face.corners[1], face.corners[2]);
   const vec3 offset = middle - face.at(shares);
   const float distance_m = glm::length(offset);
-  constexpr float alike_m = 1e-4f;
-  if (distance_m > known.distance_m + alike_m || distance_m > reach_m) return;
+  if (distance_m > farthest_m) return;
   const float facing = distance_m > 0.0f ? dot(offset, face.normal) / distance_m : 1.0f;
   // Faces meet at edges: the one that is seen most squarely decides between inside and outside.
   const bool is_nearer = distance_m < known.distance_m - alike_m;

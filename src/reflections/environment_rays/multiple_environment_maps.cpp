@@ -177,6 +177,20 @@ void MultipleEnvironmentMaps::find_missing_maps(const render::Renderer& renderer
       if (std::ranges::find(wanted_, map) == wanted_.end()) wanted_.push_back(map);
 }
 
+/// Takes over what is baked of the maps that the frame lacks, before it looks into them.
+void MultipleEnvironmentMaps::copy_baked() {
+  if (wanted_.empty() || !baked_ || search_) return;
+  const auto copied = std::erase_if(wanted_, [&](std::size_t map) {
+    const auto kept = baked_map(*baked_, map, table_.places(), maps_.resolution());
+    const std::optional<std::size_t> layer = kept ? table_.give_layer(map) : std::nullopt;
+    if (!layer) return false;
+    maps_.move(*layer, table_.places()[map]);
+    maps_.copy(*layer, *kept, 0);
+    return true;
+  });
+  if (copied > 0) table_.upload();
+}
+
 /// Takes over the maps whose places were searched, as soon as these are found. True: it has.
 bool MultipleEnvironmentMaps::take_places(const scene::Scene& scene) {
   if (!search_ || !search_->is_done()) return false;
@@ -213,15 +227,11 @@ void MultipleEnvironmentMaps::keep(const scene::Scene& scene, std::size_t map) {
 bool MultipleEnvironmentMaps::supply(render::Renderer& renderer, const scene::Scene& scene) {
   if (take_places(scene)) return true;
   const bool is_first = table_.drawn_layers().empty();
-  std::size_t read = 0, drawn = 0;
+  std::size_t drawn = 0;
   for (const std::size_t map : wanted_) {
     const std::optional<std::size_t> layer = table_.give_layer(map);
     if (!layer) break;  // the frame looks into more maps than are held: others stand in
     maps_.move(*layer, table_.places()[map]);
-    if (baked_ && !search_ && copy_baked(*baked_, map, table_.places(), maps_, *layer)) {
-      ++read;
-      continue;
-    }
     renderer.begin_still_frame(scene, camera_at(table_.places()[map]));
     renewal_.renew(renderer, maps_, *layer);
     keep(scene, map);
@@ -229,7 +239,7 @@ bool MultipleEnvironmentMaps::supply(render::Renderer& renderer, const scene::Sc
     if (prefers_rate_) break;
   }
   wanted_.clear();
-  if (read + drawn == 0) return false;
+  if (drawn == 0) return false;
   table_.upload();
   return is_first || !prefers_rate_;
 }
@@ -253,6 +263,7 @@ void MultipleEnvironmentMaps::update_maps(render::Renderer& renderer, const scen
   bodies_.follow_objects(scene);
   if (!reflectors.empty()) bodies_.update(scene, reflectors);
   find_missing_maps(renderer, reflectors);
+  copy_baked();
   if (std::exchange(renews_one_, false))
     faces_drawn_ += renewal_.renew_faces(
         renderer, maps_, reflectors.empty() ? glm::vec3(0.0f) : reflectors.front().centre, faces_per_frame_);

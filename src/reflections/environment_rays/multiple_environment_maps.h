@@ -79,6 +79,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   void update_maps(render::Renderer& renderer, const scene::Scene& scene,
                    const std::vector<methods::VisibleReflector>& reflectors) override;
   void begin_frame() override;
+  void copy_baked();
   bool take_places(const scene::Scene& scene);
   void keep(const scene::Scene& scene, std::size_t map);
   void forget_surroundings() override;

@@ -90,15 +90,14 @@ Result<ReferenceMaps> drawn_map(const scene::Scene& scene, render::Renderer& ren
   return drawn;
 }
 
-bool copy_baked(const MapCache& cache, std::size_t number, std::span<const glm::vec3> places,
-                ReferenceMaps& maps, std::size_t layer) {
+std::optional<ReferenceMaps> baked_map(const MapCache& cache, std::size_t number,
+                                       std::span<const glm::vec3> places, int resolution) {
   const std::optional<MapFile> file = cache.read(number);
-  if (!file || !std::ranges::equal(file->places, places)) return false;
-  Result<ReferenceMaps> read = ReferenceMaps::create({places[number]}, maps.resolution());
-  if (!read || !read->write(0, file->textures)) return false;
+  if (!file || !std::ranges::equal(file->places, places)) return std::nullopt;
+  Result<ReferenceMaps> read = ReferenceMaps::create({places[number]}, resolution);
+  if (!read || !read->write(0, file->textures)) return std::nullopt;
   read->update_levels();
-  maps.copy(layer, *read, 0);
-  return true;
+  return *std::move(read);
 }
 
 Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& heights,
@@ -113,7 +112,9 @@ Result<ReferenceMaps> bake_maps(const scene::Scene& scene, const HeightPyramid& 
   if (!maps) return maps.errors();
   Progress progress("reference maps", maps->places().size());
   for (std::size_t i = 0; i < maps->places().size(); ++i) {
-    if (!copy_baked(cache, i, maps->places(), *maps, i)) {
+    if (const auto kept = baked_map(cache, i, maps->places(), maps->resolution())) {
+      maps->copy(i, *kept, 0);
+    } else {
       const Result<ReferenceMaps> drawn = drawn_map(scene, renderer, *painter, maps->places()[i]);
       if (!drawn) return drawn.errors();
       maps->copy(i, *drawn, 0);

@@ -38,10 +38,10 @@ Camera camera_at(glm::vec3 place);
 Result<ReferenceMaps> drawn_map(const scene::Scene& scene, render::Renderer& renderer, MapPainter& painter,
                                 glm::vec3 place);
 
-/// Copies a baked map into a layer of `maps`, which is at its place and of the scene's resolution. False: it
-/// is not baked, or unfit, which is reported on standard error.
-bool copy_baked(const MapCache& cache, std::size_t number, std::span<const glm::vec3> places,
-                ReferenceMaps& maps, std::size_t layer);
+/// A baked map with all its levels, the only one of its ReferenceMaps. None: it is not baked, or unfit, which
+/// is reported on standard error.
+std::optional<ReferenceMaps> baked_map(const MapCache& cache, std::size_t number,
+                                       std::span<const glm::vec3> places, int resolution);
 
 /// The scene's reference maps: those that are baked are read, the others drawn. Unfit baked ones are reported
 /// on standard error. Errors: a shader; more maps than ReferenceMaps holds.

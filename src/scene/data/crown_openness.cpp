@@ -33,11 +33,11 @@ CrownOpenness::CrownOpenness(std::span<const LeafArea> leaves) {
   const glm::vec3 size = box_.size();
   cell_m_ = std::max(std::max({size.x, size.y, size.z}) / float(cells_per_side), 1e-3f);
   cells_ = glm::ivec3(size / cell_m_) + 1;
-  density_.assign(std::size_t(cells_.x) * std::size_t(cells_.y) * std::size_t(cells_.z), 0.0f);
-  const float per_volume = 1.0f / (cell_m_ * cell_m_ * cell_m_);
+  depth_of_cell_.assign(std::size_t(cells_.x) * std::size_t(cells_.y) * std::size_t(cells_.z), 0.0f);
+  const float per_cell = 0.5f / (cell_m_ * cell_m_);  // extinction times the cell's side
   for (const LeafArea& leaf : leaves) {
     const glm::ivec3 cell = glm::min(glm::ivec3((leaf.place - box_.min) / cell_m_), cells_ - 1);
-    density_[index(cell)] += leaf.area_m2 * per_volume;
+    depth_of_cell_[index(cell)] += leaf.area_m2 * per_cell;
   }
 }
 
@@ -46,26 +46,24 @@ std::size_t CrownOpenness::index(glm::ivec3 cell) const {
          std::size_t(cell.x);
 }
 
-float CrownOpenness::extinction_per_m(glm::vec3 place) const {
-  const glm::ivec3 cell(glm::floor((place - box_.min) / cell_m_));
-  if (glm::any(glm::lessThan(cell, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(cell, cells_)))
-    return 0.0f;
-  return 0.5f * density_[index(cell)];
-}
-
 float CrownOpenness::depth(glm::vec3 place, glm::vec3 direction, float enough) const {
+  const glm::vec3 start = (place - box_.min) / cell_m_,
+                  end(cells_.x, cells_.y, (box_.max.z - box_.min.z) / cell_m_);
+  float exit = 2.0f * float(cells_per_side);  // steps along the ray, in the middle of cells of its own
+  for (int axis = 0; axis < 3; ++axis)
+    if (direction[axis] != 0.0f)
+      exit = std::min(exit, ((direction[axis] > 0.0f ? end[axis] : 0.0f) - start[axis]) / direction[axis]);
   float depth = 0.0f;
-  for (int step = 0; step < 2 * cells_per_side && depth < enough; ++step) {
-    const glm::vec3 at = place + (float(step) + 0.5f) * cell_m_ * direction;
-    if (direction.z > 0.0f ? at.z > box_.max.z : at.z < box_.min.z) break;
-    depth += cell_m_ * extinction_per_m(at);
+  for (float along = 0.5f; along <= exit && depth < enough; along += 1.0f) {
+    const glm::ivec3 cell = glm::ivec3(start + along * direction + 1.0f) - 1;  // floor, from -1 on
+    if (glm::all(glm::lessThan(glm::uvec3(cell), glm::uvec3(cells_)))) depth += depth_of_cell_[index(cell)];
   }
   return std::min(depth, enough);
 }
 
 float CrownOpenness::at(glm::vec3 place) const {
   constexpr float dark = 4.0f;
-  if (density_.empty()) return 1.0f;
+  if (depth_of_cell_.empty()) return 1.0f;
   float seen = 0.0f, all = 0.0f;
   for (const glm::vec3 direction : directions()) {
     const float weight = 0.3f + direction.z;
@@ -76,7 +74,7 @@ float CrownOpenness::at(glm::vec3 place) const {
 
 float CrownOpenness::max_seen(glm::vec3 place) const {
   constexpr float dark = 8.0f;
-  if (density_.empty()) return 1.0f;
+  if (depth_of_cell_.empty()) return 1.0f;
   float lowest = dark;
   for (const glm::vec3 up : directions())
     for (const glm::vec3 direction : {up, -up}) lowest = depth(place, direction, lowest);

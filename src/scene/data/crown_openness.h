@@ -29,12 +29,11 @@ class CrownOpenness {
   /// Optical depth of the leaves between a place and the outside in a direction; no more than `enough`.
   float depth(glm::vec3 place, glm::vec3 direction, float enough) const;
   std::size_t index(glm::ivec3 cell) const;
-  float extinction_per_m(glm::vec3 place) const;
 
   Bounds box_;
   glm::ivec3 cells_{0};
   float cell_m_ = 1.0f;
-  std::vector<float> density_;  ///< leaf area per volume, 1/m
+  std::vector<float> depth_of_cell_;  ///< optical depth of its leaves across one side
 };
 
 }  // namespace parvis::scene
