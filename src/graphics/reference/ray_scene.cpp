@@ -191,7 +191,7 @@ void RayScene::trace_things_again(const scene::Scene& scene) {
   const std::vector<std::shared_ptr<const void>> last = std::exchange(kept_, {});
   const std::vector<std::unique_ptr<PlacedPart>> before = forget_things();
   trace_things(scene);
-  forget_what_is_not_placed();
+  forget_meshes_but_those_placed();
   const std::size_t after = places_.size() - object_places_;
   for (std::size_t i = 0; i < std::max(before.size(), after); ++i) {
     const PlacedPart* was = i < before.size() ? before[i].get() : nullptr;
@@ -272,7 +272,7 @@ Bounds RayScene::fixed_bounds(const scene::Scene& scene) const {
 
 /// Embree's hierarchies of meshes that no place shows any more, and the textures of their models, which look
 /// into these.
-void RayScene::forget_what_is_not_placed() {
+void RayScene::forget_meshes_but_those_placed() {
   std::unordered_set<const void*> placed;
   for (const std::unique_ptr<PlacedPart>& place : places_)
     placed.insert(place->mesh), placed.insert(place->textures);

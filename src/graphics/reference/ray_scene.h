@@ -155,7 +155,7 @@ class RayScene {
   void trace_things(const scene::Scene& scene);
   void trace_things_again(const scene::Scene& scene);
   std::vector<std::unique_ptr<PlacedPart>> forget_things();
-  void forget_what_is_not_placed();
+  void forget_meshes_but_those_placed();
   void join(std::size_t place);
   void leave_joined(std::size_t place);
   RTCGeometryTy* triangles(const Mesh& mesh, const glm::mat4& transform, float margin,
