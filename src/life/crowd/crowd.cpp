@@ -12,10 +12,11 @@ constexpr float away_level_m = -1e4f;  // below all ground
 constexpr float corner_m = 0.5f;       // at which a corner is reached
 constexpr float own_lean_m = 0.7f;     // corners are passed wider by up to it
 constexpr float queue_lean_m = 0.4f;   // and by so much more at each look around in a queue
-constexpr float widest_lean_m = 8.0f;  // by a fraction of it at most
-constexpr float queue_speed = 0.6f;    // of the free speed
-constexpr std::uint32_t turns = 4;     // a part of the people looks round in each step
-constexpr float lost_s = 4.0f;         // blocked for so long: another way is sought
+constexpr float widest_lean = 0.7f;    // by a fraction of this part of the room there
+constexpr float widest_room_m = 30.0f;
+constexpr float queue_speed = 0.6f;  // of the free speed
+constexpr std::uint32_t turns = 4;   // a part of the people looks round in each step
+constexpr float lost_s = 4.0f;       // blocked for so long: another way is sought
 // Weidmann 1993: horizontal speeds on stairs.
 constexpr float stair_slope = 0.35f, up_m_s = 0.61f, down_m_s = 0.694f;
 
@@ -125,6 +126,23 @@ void Crowd::remove(std::size_t person) {
   people_.pop_back();
 }
 
+glm::vec2 Crowd::outward(const PersonOnTheWay& person) const {
+  const glm::vec2 corner = person.way[person.corner],
+                  in = unit(corner - glm::vec2(person.way[person.corner - 1])),
+                  out = unit(glm::vec2(person.way[person.corner + 1]) - corner);
+  return unit(in - out);
+}
+
+float Crowd::room_at_corner(const PersonOnTheWay& person) const {
+  constexpr float step_m = 0.5f;
+  const glm::vec3 corner = person.way[person.corner];
+  const glm::vec2 at(corner), away = outward(person);
+  float room_m = 0.0f;
+  while (room_m < widest_room_m && !walls_.crosses(at, at + (room_m + step_m) * away, corner.z))
+    room_m += step_m;
+  return room_m;
+}
+
 glm::vec2 Crowd::target_of(std::size_t person) const {
   const PersonOnTheWay& it = people_[person];
   const glm::vec2 corner = it.way[it.corner], here = walkers_.position[person];
@@ -135,10 +153,7 @@ glm::vec2 Crowd::target_of(std::size_t person) const {
     const float length = glm::length(along), inside = std::min(0.5f, 0.3f / std::max(length, 0.3f));
     return nearest_on_segment(glm::vec2(to.a) + inside * along, glm::vec2(to.b) - inside * along, here);
   }
-  // The wall about which the way turns lies on the inner side.
-  const glm::vec2 in = unit(corner - glm::vec2(it.way[it.corner - 1])),
-                  out = unit(glm::vec2(it.way[it.corner + 1]) - corner);
-  const glm::vec2 wider = corner + it.lean_m * unit(in - out);
+  const glm::vec2 wider = corner + it.lean_m * outward(it);
   return walls_.crosses(corner, wider, it.way[it.corner].z) ? corner : wider;
 }
 
@@ -163,7 +178,10 @@ void Crowd::follow_way(std::size_t person) {
                                                           glm::distance(here, corner) < corner_m);
     const bool sees_next =
         is_level(it.way[it.corner + 1]) && !walls_.crosses(here, next, walkers_.height_m[person]);
-    if (!is_there && !sees_next) break;
+    // Else those who come round a corner in a wide queue would all turn to its inner wall again.
+    const glm::vec2 on = unit(corner - glm::vec2(it.way[it.corner - 1])) + unit(next - corner);
+    const bool is_wide = it.lean_m > own_lean_m, is_past = glm::dot(here - corner, on) > 0.0f;
+    if (!is_there && !(sees_next && (is_past || !is_wide))) break;
     ++it.corner;
     it.lean_m = own_lean_m * fraction_of(it.number, 1);
   }
@@ -171,8 +189,8 @@ void Crowd::follow_way(std::size_t person) {
   if (it.corner + 1 < it.way.size() &&
       glm::length(walkers_.velocity[person]) < queue_speed * walkers_.free_speed[person]) {
     const float before_m = it.lean_m;
-    it.lean_m =
-        std::max(before_m, std::min(before_m + queue_lean_m, widest_lean_m * fraction_of(it.number, 2)));
+    it.lean_m = std::max(before_m, std::min(before_m + queue_lean_m,
+                                            widest_lean * fraction_of(it.number, 2) * room_at_corner(it)));
     if (target_of(person) == glm::vec2(it.way[it.corner])) it.lean_m = before_m;
   }
   const bool is_cut_off = walls_.crosses(here, it.way[it.corner], walkers_.height_m[person]);

@@ -88,6 +88,10 @@ class Crowd {
   void follow_way(std::size_t person);
   void look_at_ground(std::size_t person);
   glm::vec2 target_of(std::size_t person) const;
+  /// Away from the wall about which a person's way turns at the corner that is walked to; unit.
+  glm::vec2 outward(const PersonOnTheWay& person) const;
+  /// How far the next wall is in that direction.
+  float room_at_corner(const PersonOnTheWay& person) const;
   void keep_together();
 
   NavMesh mesh_;

@@ -30,6 +30,13 @@ constexpr std::array turns_rad = {0.3f, 0.6f, 1.0f, 1.5f};  // radians from the 
 constexpr float widest_turn = 0.7f;                         // of who is not blocked
 constexpr float blocked_gain = 0.5f;                        // of getting on at all, for who is
 
+/// The fraction of a change of velocity that somebody makes within a step: who walks as fast as they like
+/// goes on for a while as they do, who is slowed down to half of that or less turns to any gap at once.
+float agility(float speed, float free_speed, float relaxation_s, float step_s) {
+  const float inertia = std::clamp(2.0f * speed / free_speed - 1.0f, 0.0f, 1.0f);
+  return inertia * relaxation_s > 0.0f ? 1.0f - std::exp(-step_s / (inertia * relaxation_s)) : 1.0f;
+}
+
 /// Half the breadth that somebody needs who has been blocked for so long: people turn their shoulders to
 /// squeeze through, which breaks arches before doors.
 float slim_radius(float radius_m, float blocked_s) {
@@ -217,15 +224,22 @@ glm::vec2 Steering::steered(const Walkers& walkers, std::size_t number, const Wa
     const Sorted& other = sorted_[around.index[n]];
     const bool stands = walkers.aim[other.index] == glm::vec2(0.0f);
     const bool goes_along = !stands && glm::dot(walkers.aim[other.index], walkers.aim[self.index]) > 0.5f;
+    // Who stands is walked round.
+    const float share = stands ? 1.0f : walkers.aim[self.index] == glm::vec2(0.0f) ? 0.0f : 0.5f;
     planes[used++] = clear_of_disc(
         {{around.x[n], around.y[n]}, self.velocity - other.velocity, slim_[self.index] + slim_[other.index]},
-        self.velocity, goes_along ? along_horizon_s : rules_.horizon_s, step_s, stands ? 1.0f : 0.5f);
+        self.velocity, goes_along ? along_horizon_s : rules_.horizon_s, step_s, share);
   }
-  const float free_speed = walkers.free_speed[self.index];
-  glm::vec2 best = nearest_velocity({planes.data(), used}, hard, wanted, free_speed);
+  const float free_speed = walkers.free_speed[self.index], own_speed = glm::length(self.velocity);
+  const glm::vec2 preferred =
+      wanted == glm::vec2(0.0f)
+          ? wanted
+          : self.velocity +
+                agility(own_speed, free_speed, rules_.relaxation_s, step_s) * (wanted - self.velocity);
+  glm::vec2 best = nearest_velocity({planes.data(), used}, hard, preferred, std::max(free_speed, own_speed));
   // Who slides along others keeps the distance to the person whom he comes behind.
   if (const float speed = glm::length(best); speed > 0.0f && wanted != glm::vec2(0.0f)) {
-    const float possible = speed_along(best / speed, free_speed, around);
+    const float possible = speed_along(best / speed, std::max(free_speed, speed), around);
     if (possible < speed) best *= possible / speed;
   }
   const glm::vec2 change = best - self.velocity;

@@ -3,9 +3,10 @@
 //
 // Departures from van den Berg and others 2011 (avoidance.h): the preferred speed falls with the distance to
 // the next person ahead (Tordeux, Chraibi and Seyfried 2016, "Collision-free speed model for pedestrian
-// dynamics"), since reciprocal avoidance alone lets dense crowds walk far too fast; a person whose way is
-// blocked by somebody who comes the other way turns to the right, and in time turns the shoulders; bodies
-// that touch are pushed apart, and walls have the last word.
+// dynamics"), since reciprocal avoidance alone lets dense crowds walk far too fast; velocities relax (Helbing
+// and Molnar 1995, "Social force model for pedestrian dynamics"); a person whose way is blocked by somebody
+// who comes the other way turns to the right, and in time turns the shoulders; bodies that touch are pushed
+// apart, and walls have the last word.
 #pragma once
 
 #include <array>
@@ -51,6 +52,7 @@ struct SteeringRules {
   float headway_body = 0.86f;     ///< of both radii that counts as touching there
   float headway_stride = 1.1f;    ///< the same of who walks the same way: strides need room
   float headway_width = 0.8f;     ///< of both radii: who is farther beside the way is not ahead
+  float relaxation_s = 0.5f;      ///< in which a walker's velocity becomes the wanted one but for 1 / e
   float max_acceleration = 3.0f;  ///< m/s2
 };
 
