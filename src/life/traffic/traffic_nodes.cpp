@@ -163,16 +163,46 @@ void build_lights(const Node& node, SceneBuilder& builder) {
   builder.add(std::move(demand));
 }
 
+/// Things of a map that stand where none can be, by the node that asks for the map's.
+class LeftOut {
+ public:
+  void add(const FileLocation& where, glm::vec3 position) {
+    const auto known = std::ranges::find_if(places_, [&](const Places& it) {
+      return it.where.file == where.file && it.where.line == where.line && it.where.column == where.column;
+    });
+    Places& places = known != places_.end() ? *known : places_.emplace_back(Places{where, position, 0});
+    ++places.count;
+  }
+  /// A warning for each node: how many, why, and where the first one is.
+  void report(std::string_view node, std::string_view why, SceneBuilder& builder) const {
+    for (const Places& it : places_)
+      builder.warn(error_at(it.where, "{}: {} of the map are left out, which {}; the first at {:.1f} {:.1f}",
+                            node, it.count, why, it.first.x, it.first.y));
+  }
+
+ private:
+  struct Places {
+    FileLocation where;
+    glm::vec3 first{0.0f};
+    int count = 0;
+  };
+  std::vector<Places> places_;
+};
+
 /// Lays out all lights once the lanes are there, and sets up their masts.
 void finish_lights(SceneBuilder& builder) {
   const scene::ItemsOf<SignalDemand> demands = builder.scene.data<scene::ItemsOf<SignalDemand>>();
   if (demands.items.empty() || !builder.errors().empty()) return;
   const std::vector<scene::StreetCrossing> crossings = scene::street_crossings(builder.scene);
   std::vector<int> lit;
+  LeftOut left_out;
   for (std::size_t i = 0; i < demands.items.size(); ++i) {
     const SignalDemand& demand = demands.items[i];
     const Result<SignalJunction> junction = signals_at(builder.scene.roads, crossings, demand);
-    if (!junction && demand.is_of_map) continue;  // beside a way of its own, say
+    if (!junction && demand.is_of_map) {  // before a crossing between junctions, say
+      left_out.add(demand.where, demand.position);
+      continue;
+    }
     if (!junction) {
       builder.fail(junction.errors(), demand.where);
       continue;
@@ -191,6 +221,7 @@ void finish_lights(SceneBuilder& builder) {
     masts.model = signal_masts(*junction), masts.is_visible = demand.is_visible;
     builder.add_for(demands.makers[i], {std::move(masts)});
   }
+  left_out.report("trafficLights", "stand at no junction of three streets within 30 m", builder);
 }
 
 scene::NodeSchema bus_stop_schema() {
@@ -234,10 +265,14 @@ void build_bus_stop(const Node& node, SceneBuilder& builder) {
 void finish_bus_stops(SceneBuilder& builder) {
   const scene::ItemsOf<BusStopDemand> demands = builder.scene.data<scene::ItemsOf<BusStopDemand>>();
   if (demands.items.empty() || !builder.errors().empty()) return;
+  LeftOut left_out;
   for (std::size_t i = 0; i < demands.items.size(); ++i) {
     const BusStopDemand& demand = demands.items[i];
     const std::optional<glm::vec2> kerbward = kerbward_of(builder.scene.roads, demand.position);
-    if (!kerbward && demand.is_of_map) continue;
+    if (!kerbward && demand.is_of_map) {
+      left_out.add(demand.where, demand.position);
+      continue;
+    }
     if (!kerbward) {
       builder.fail(error_at(demand.where,
                             "busStop: no lane leads past {:.1f} {:.1f} at its left within 8 m; place it "
@@ -250,6 +285,7 @@ void finish_bus_stops(SceneBuilder& builder) {
     pole.model = bus_stop_pole(demand.position, *kerbward);
     builder.add_for(demands.makers[i], {std::move(pole)});
   }
+  left_out.report("busStop", "have no lane at their left within 8 m", builder);
 }
 
 }  // namespace

@@ -251,6 +251,24 @@ TEST(BareFile, LoadsWithoutAWarningAndHasGroundToTheHorizon) {
   EXPECT_EQ(std::ranges::count(scene.objects, std::string("traffic lights masts"), &scene::Object::name), 1);
 }
 
+TEST(BareFile, LightsOfTheMapBetweenJunctionsAreNamed) {
+  const TestFolder folder;
+  folder.write("street.osm", R"(<osm version="0.6">
+      <bounds minlat="52.158" minlon="4.488" maxlat="52.161" maxlon="4.494"/>
+      <node id="1" lat="52.1595" lon="4.4890"/>
+      <node id="2" lat="52.1595" lon="4.4907"><tag k="highway" v="traffic_signals"/></node>
+      <node id="3" lat="52.1595" lon="4.4924"/>
+      <way id="9"><nd ref="1"/><nd ref="2"/><nd ref="3"/><tag k="highway" v="residential"/></way></osm>)");
+  const auto script = folder.write("a.xp",
+                                   "model(name=\"town\", file=\"street.osm\") trafficLights(of=\"town\")\n"
+                                   "camera(name=\"c\", position=\"0 -9 2\", target=\"0 0 1\")\n");
+  const Result<scene::LoadedScene> loaded = scene::load_scene(script, rooms::node_registry());
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  EXPECT_NE(to_string(loaded->warnings).find("1 of the map are left out, which stand at no junction"),
+            std::string::npos)
+      << to_string(loaded->warnings);
+}
+
 /// The map of crossroads as the model "town", followed by more of a script.
 scene::Scene crossroads_with(const std::string& rest) {
   const TestFolder folder;
