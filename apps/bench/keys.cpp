@@ -211,7 +211,7 @@ constexpr Key keys[]{
     {"overlaps_per_person_hour_vehicles", "1/h", maximum(0.0), "the same: bodies 3 cm into vehicles", {{"overlaps_per_person_hour_vehicles_unheeded"}}},
     {"overlaps_per_person_hour_people", "1/h", {}, "the same: bodies 3 cm into each other"},
     {"people_in_vehicles_paths", "", maximum(0.0), "the same: before vehicles faster than 1 m/s, within half a second of them", {{"people_in_vehicles_paths_unheeded"}}},
-    {"blocked_crossings", "", maximum(0.0), "the same: vehicles that stand for 3 s on a crossing that somebody waits at", {{"blocked_crossings_without_room"}}},
+    {"blocked_crossings", "", maximum(0.0), "the same: vehicles that stand for 3 s on a crossing that somebody waits at", {{"blocked_crossings_unheeded"}}},
     {"red_light_crossings", "", maximum(0.0), "the same: people who step off the kerb and cars that pass the stop line at red, at the crossing's traffic lights", {{"red_light_crossings_unheeded"}}},
     {"foot_slide_cm", "cm", maximum(1.0), "feet of 20 of those people, the 99th percentile of the worst", {{"foot_slide_cm_stretched"}}},
     {"impostor_switch_flip", "FLIP", maximum(0.02), "a person's pixels, 1280x720: the eye moves by 2 cm and the level of detail changes, the worst of three", {{"impostor_switch_flip_of_a_step"}}},
