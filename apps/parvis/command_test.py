@@ -2009,15 +2009,35 @@ class DividedWalls(Divided):
         self.assertIn('process 1 shows wall "floor"', said)
         self.assertNotIn("another state", said)
 
-    def test_one_that_dies_ends_the_show(self):
-        process = self.begin("--frame-log", self.folder / "log")
+    def wait_until(self, holds):
         began = time.monotonic()
-        while len(self.frames(1)) < 2 or len(self.frames(0)) < 2:
+        while not holds():
             self.assertLess(time.monotonic() - began, 120)
-            self.assertIsNone(process.poll())
             time.sleep(0.1)
+
+    def begin_with_mpirun(self):
+        """A show that has begun, and the number of its mpirun."""
+        process = self.begin("--frame-log", self.folder / "log")
+        self.wait_until(lambda: process.poll() is not None or min(len(self.frames(0)), len(self.frames(1))) > 1)
+        self.assertIsNone(process.poll())
         (mpirun,) = (int(pathlib.Path(status).parent.name) for status in glob.glob("/proc/[0-9]*/status")
                      if self.is_mpirun_of(status, process.pid))
+        return process, mpirun
+
+    def test_one_that_hangs_is_named_and_waited_for(self):
+        process, mpirun = self.begin_with_mpirun()
+        hangs = self.process_of_rank(1, mpirun)
+        os.kill(hangs, signal.SIGSTOP)
+        try:
+            self.wait_until(lambda: "process 1 has not answered for 1 s" in pathlib.Path(self.said.name).read_text())
+            shown = len(self.frames(0))
+        finally:
+            os.kill(hangs, signal.SIGCONT)
+        self.wait_until(lambda: len(self.frames(0)) > shown + 2)
+        self.assertIsNone(process.poll())
+
+    def test_one_that_dies_ends_the_show(self):
+        process, mpirun = self.begin_with_mpirun()
         os.kill(self.process_of_rank(1, mpirun), 9)
         killed = time.monotonic()
         while self.is_running(mpirun):

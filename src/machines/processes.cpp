@@ -56,6 +56,40 @@ void Processes::wait_for_all() const {
   wait_for(request);
 }
 
+void Processes::wait_for_all(
+    const std::function<void(std::span<const int> missing, double seconds)>& report) const {
+  if (!are_several() || !is_joined_) return;
+  // Each says to each that it is here, so that everyone knows who is not.
+  constexpr int here_tag = 100;
+  std::vector<int> from(std::size_t(count_), 0), missing;
+  std::vector<MPI_Request> sent, received(std::size_t(count_), MPI_REQUEST_NULL);
+  for (int other = 0; other < count_; ++other) {
+    if (other == rank_) continue;
+    missing.push_back(other);
+    MPI_Irecv(&from[std::size_t(other)], 1, MPI_INT, other, here_tag, MPI_COMM_WORLD,
+              &received[std::size_t(other)]);
+    MPI_Isend(&rank_, 1, MPI_INT, other, here_tag, MPI_COMM_WORLD, &sent.emplace_back(MPI_REQUEST_NULL));
+  }
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  for (double reported_s = 0.0; !missing.empty();) {
+    std::erase_if(missing, [&](int other) {
+      int is_here = 0;
+      MPI_Test(&received[std::size_t(other)], &is_here, MPI_STATUS_IGNORE);
+      return is_here != 0;
+    });
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (!missing.empty() && seconds >= reported_s + 1.0) {
+      reported_s = seconds;
+      int first = 0;  // of those that are here
+      while (std::ranges::find(missing, first) != missing.end()) ++first;
+      if (first == rank_) report(missing, seconds);
+    }
+    if (!missing.empty()) std::this_thread::sleep_for(poll_interval);
+  }
+  for (const MPI_Request request : sent) wait_for(request);
+}
+
 void Processes::share_of_first(std::string& bytes) const {
   if (!are_several()) return;
   if (collectives_) return collectives_->share_of_first(rank_, bytes);
@@ -80,6 +114,11 @@ bool Processes::any_of(bool holds) const {
   double count = holds ? 1.0 : 0.0;
   sum(std::span(&count, 1));
   return count > 0.0;
+}
+
+void Processes::give_up() const {
+  if (is_joined_) MPI_Abort(MPI_COMM_WORLD, 1);
+  std::abort();
 }
 
 void Processes::leave() const {

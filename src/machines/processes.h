@@ -3,6 +3,7 @@
 // Without mpirun it is one process, and MPI is not touched.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 
@@ -38,6 +39,9 @@ class Processes {
 
   /// Waits until all processes have called it; waiting takes no processor time.
   void wait_for_all() const;
+  /// The same; each time that a second has passed, `report` learns which processes have not, and for how long
+  /// they are waited for. Only the first of those that wait calls it.
+  void wait_for_all(const std::function<void(std::span<const int> missing, double seconds)>& report) const;
   /// The first process's bytes, in every process.
   void share_of_first(std::string& bytes) const;
   /// Adds up, element by element, what all processes have; each receives the sums. The order of summation is
@@ -49,6 +53,8 @@ class Processes {
   bool any_of(bool holds) const;
   /// Waits for all others and ends the membership: the work is done. Nothing may be called after it.
   void leave() const;
+  /// Ends all processes at once, with status 1: one of them does not answer.
+  [[noreturn]] void give_up() const;
 
  private:
   friend class ThreadProcesses;  // test_processes.h

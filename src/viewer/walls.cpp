@@ -219,6 +219,7 @@ class WallFrames {
       const Steady::time_point now = Steady::now();
       told.seconds = options_.processes.is_first() ? std::chrono::duration<double>(now - last).count() : 0.0;
       last = now;
+      wait_for_all();
       options_.processes.sum(std::span(reinterpret_cast<double*>(&told), sizeof told / sizeof(double)));
       compare_states(told);
       const bool ends = told.ends > 0.0 || frame == options_.max_frames;
@@ -226,7 +227,7 @@ class WallFrames {
       step(told);
       if (Status status = draw(told.seconds); !status) return status;
       glFinish();
-      options_.processes.wait_for_all();
+      wait_for_all();
       for (WallWindow& window : windows_) window.swap();
       if (log_)
         log_ << fmt::format("{},{},{:.6f}\n", frame, Steady::now().time_since_epoch().count(), scene_s)
@@ -241,6 +242,17 @@ class WallFrames {
 
  private:
   static constexpr glm::vec2 panel_size{900.0f, 600.0f};
+
+  /// Names the walls of processes that hang, and ends the show where they go on to.
+  void wait_for_all() const {
+    constexpr double longest_s = 30.0;
+    options_.processes.wait_for_all([&](std::span<const int> missing, double seconds) {
+      for (const int process : missing)
+        fmt::print(stderr, "process {} has not answered for {:.0f} s: {}\n", process, seconds,
+                   seconds < longest_s ? "the walls wait for it" : "the show ends");
+      if (seconds >= longest_s) options_.processes.give_up();
+    });
+  }
 
   /// The part of the frame to come that this process knows.
   Told gathered(double now_s) {
