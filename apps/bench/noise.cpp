@@ -32,10 +32,13 @@ void measure_noise_cases(const BenchSetup&, Report& report) {
   report.add("cnossos_largest_difference_db", largest_db);
   const propagation::Matches air = propagation::compare_air_table(*folder);
   report.add("air_absorption_matches", air.agree);
+  report.add("air_absorption_matches_in_warm_air", propagation::compare_air_table(*folder, 2.0).agree);
   report.note(fmt::format("{} of {} figures are the same when rounded; not: {}", air.rounded, air.all,
                           air.differing));
   const propagation::Matches road = propagation::compare_road_checks(*folder, "checks");
   report.add("road_emission_checks", road.agree);
+  report.add("road_emission_checks_in_warm_air",
+             propagation::compare_road_checks(*folder, "checks", 5.0).agree);
   if (!road.differing.empty()) report.note(road.differing);
 }
 

@@ -20,7 +20,7 @@ struct NoiseArguments {
 /// Prints the meaning of the figures, and the gaps of the map.
 void print_noise(const NoiseArguments& arguments, const noise::NoiseMap& map) {
   const noise::RoadSources& sources = map.sources;
-  if (!sources.is_counted)
+  if (sources.is_driven)
     fmt::print(
         "the vehicles of traffic count, as if they drove at all hours: Lday is the level of such an hour "
         "(Leq)\n");
@@ -33,14 +33,15 @@ void print_noise(const NoiseArguments& arguments, const noise::NoiseMap& map) {
   if (sources.has_trams)
     fmt::print(
         "trams count, the same at all hours; with them levels are indicative: no standard has plain trams\n");
+  const char* const mark = sources.has_trams ? " (indicative)" : "";
   double loudest = 0.0;
   std::size_t facades = 0;
   for (std::size_t i = 0; i < map.receivers.size(); ++i)
     loudest = std::max(loudest, map.levels[i].lden), facades += map.receivers[i].wall >= 0 ? 1 : 0;
-  fmt::print("{} receivers, {} of them at facades, {} pieces of road; the loudest Lden is {:.1f} dB(A)\n",
-             map.receivers.size(), facades, sources.patches.size(), loudest);
+  fmt::print("{} receivers, {} of them at facades, {} pieces of road; the loudest Lden is {:.1f} dB(A){}\n",
+             map.receivers.size(), facades, sources.patches.size(), loudest, mark);
   const std::string prefix = arguments.output.string();
-  fmt::print("{}.png, .csv, .tif, .glb{}\n", prefix, facades > 0 ? ", _facades.csv" : "");
+  fmt::print("{}.png, .csv, .tif, .glb with _Lden.png{}\n", prefix, facades > 0 ? ", _facades.csv" : "");
 }
 
 Result<noise::NoiseMap> noise_of(const NoiseArguments& arguments, const scene::Scene& scene) {

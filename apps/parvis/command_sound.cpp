@@ -7,6 +7,7 @@
 #include "interruption.h"
 #include "life/sound/listening.h"
 #include "life/sound/wave_file.h"
+#include "life/tram/tram_line.h"
 #include "scene/data/path.h"
 #include "scene/script/attribute.h"
 #include "scene_arguments.h"
@@ -97,9 +98,10 @@ Status run_sound(const SoundArguments& arguments) {
                "warning: {} samples are louder than the file can hold and are clipped; give --gain -{:.0f}\n",
                clipped, std::ceil(20.0 * std::log10(double(loudest))));
   fmt::print(
-      "{}: {:g} s, at most {} sounds; mean level {:.1f} dB, where 0 dBFS stands for {:.0f} dB\n",
+      "{}: {:g} s, at most {} sounds; mean level {:.1f} dB{}, where 0 dBFS stands for {:.0f} dB\n",
       arguments.output.string(), arguments.seconds, sounds,
       propagation::level(energy / double(channels[0].size())) + sound::full_scale_db - arguments.gain_db,
+      simulation->scene.items<tram::TramLine>().empty() ? "" : " (indicative: no standard has plain trams)",
       sound::full_scale_db - arguments.gain_db);
   return Ok{};
 }

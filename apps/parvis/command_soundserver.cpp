@@ -46,7 +46,11 @@ Status run_soundserver(const SoundServerArguments& arguments) {
     if (now_s - updated_s < update_s) continue;
     updated_s = now_s;
     playback.mute(served.is_muted());
-    playback.update(served.heard(now_s), {}, now_s);
+    std::vector<sound::HeardSound> heard = served.heard(now_s);
+    playback.update(std::move(heard), served.beds(now_s), now_s);
+    for (const std::string& wanted : served.recordings().wanted(now_s)) socket->send(wanted);
+    if (const std::string message = served.recordings().take_message(); !message.empty())
+      fmt::print(stderr, "{}\n", message);
     if (const std::string message = playback.take_message(); !message.empty())
       fmt::print(stderr, "{}\n", message);
   }

@@ -2241,6 +2241,72 @@ class Window(InAFolder):
         )
 
 
+class Noise(InAFolder):
+    """The map of noise: its files, the difference of two states, a traffic that changes, what cannot be computed."""
+
+    ROAD = 'road(name="street", path="-90 0, 90 0", speed_km_h=30)\npaving()\nterrain_plane()\ntrafficCount(per_hour="420 210 60")\n'
+
+    def house(self):
+        """A house of 20 x 8 x 9 m north of the road, which the scenario "without" hides."""
+        corners = [(x, y, z) for z in (0, 9) for y in (12, 20) for x in (-10, 10)]
+        faces = [(1, 2, 6, 5), (4, 3, 7, 8), (3, 1, 5, 7), (2, 4, 8, 6), (5, 6, 8, 7)]
+        self.write("house.ply", f"ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
+                   f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+                   + "".join("%g %g %g\n" % corner for corner in corners) + "".join("4 %d %d %d %d\n" % tuple(i - 1 for i in face) for face in faces))
+        return ('model(name="house", file="house.ply")\nscenario(name="without") {\n  override(of="house", visible=0)\n}\n')
+
+    def rows(self, name):
+        with open(self.folder / name) as table:
+            return list(csv.DictReader(table))
+
+    def test_its_files_agree_and_two_states_differ_behind_the_house(self):
+        scene = self.write("scene.xp", self.ROAD + self.house())
+        done = run("noise", scene, "--area", -20, 4, 20, 34, "--against", "without", "-o", self.folder / "n")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("n.png", "n.tif", "n.glb", "n_Lden.png", "n_facades.csv", "n_difference.png"):
+            self.assertGreater((self.folder / name).stat().st_size, 100, name)
+        at = {(float(row["x_m"]), float(row["y_m"])): row for row in self.rows("n.csv")}
+        self.assertNotIn((2.5, 16.5), at, "in the house")
+        near, behind = float(at[2.5, 6.5]["lden_db"]), float(at[2.5, 26.5]["lden_db"])
+        self.assertGreater(near, behind + 12)
+        change = {(float(row["x_m"]), float(row["y_m"])): float(row["difference_db"]) for row in self.rows("n_difference.csv")}
+        self.assertLess(change[2.5, 26.5], -5)
+        self.assertGreater(change[2.5, 6.5], 0, "the facade reflects")
+        facades = self.rows("n_facades.csv")
+        self.assertEqual({row["floor"] for row in facades}, {"0", "1", "2"})
+        south = [float(row["lden_db"]) for row in facades if float(row["facing_y"]) < -0.9]
+        north = [float(row["lden_db"]) for row in facades if float(row["facing_y"]) > 0.9]
+        self.assertGreater(min(south), max(north) + 8)
+        if shutil.which("gdalinfo"):
+            said = subprocess.run(["gdalinfo", "-stats", self.folder / "n.tif"], capture_output=True, text=True).stdout
+            self.assertIn("Description = Lden dB(A)", said)
+            loudest = max(float(row["lden_db"]) for row in at.values())
+            self.assertAlmostEqual(float(re.search(r"Maximum=([0-9.]+)", said)[1]), loudest, delta=0.1)
+
+    def test_traffic_that_changes_recolours_the_map_of_a_scene(self):
+        scene = self.write("scene.xp", self.ROAD + 'noiseMap(name="map", area="-40 5 0, 40 40 0", cell=5)\nsun()\n'
+                           'scenario(name="busy") {\n  override(of="map", traffic_factor=10)\n}\ncamera(name="a", position="0 -40 60", target="0 20 0")\n')
+        done = run("render", scene, *SIZE, "--scenario", "base", "--scenario", "busy", "-o", self.folder / "out.png")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        base, busy = (pixels((self.folder / f"out-{name}.png").read_bytes()) for name in ("base", "busy"))
+        self.assertNotEqual(base, busy)
+
+    def test_trams_mark_every_level_as_indicative(self):
+        scene = self.write("scene.xp", 'tram(path="-90 0, 90 0", headway_s=300) {\n  tramStop(position="0 -3 0")\n}\nterrain_plane()\n')
+        done = run("noise", scene, "--area", -20, 8, 20, 28, "-o", self.folder / "n")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"dB\(A\) \(indicative\)")
+        self.assertIn("lden_db_indicative", self.rows("n.csv")[0])
+
+    def test_what_cannot_be_computed_is_said(self):
+        for script, words in (("sun()\n", "no roads"), ('road(path="-9 0, 9 0")\n', "trafficCount"), (self.ROAD.replace("(per_hour", '(road="alley", per_hour'), "name"),
+                              ('noiseSource(path="0 0 1", power_db="1 2 3")\n', "eight")):
+            self.expect_failure("noise", self.write("scene.xp", script), "-o", self.folder / "n", words=[words])
+        scene = self.write("scene.xp", self.ROAD + self.house())
+        self.expect_failure("noise", scene, "--area", -5, 13, 4, 19, "--cell", 3, "--ground-only", "-o", self.folder / "n", words=["buildings"])
+        self.expect_failure("noise", scene, "--area", 0, 0, 9000, 9000, "--cell", 1, "-o", self.folder / "n", words=["larger --cell"])
+
+
 class Sounds(InAFolder):
     """Sound files that are read and written, the window's sound, and the server."""
 
@@ -2283,19 +2349,28 @@ class Sounds(InAFolder):
         self.write("scene.xp", 'sound(kind="bed")\n')
         self.expect_failure("check", scene, words=["file=", "scene.xp:1"])
 
-    def test_a_server_plays_what_it_is_sent_and_survives_the_rest(self):
-        def text(value):
-            return value.encode() + bytes(4 - len(value) % 4)
+    def server(self, device, seconds, **environment):
+        return subprocess.Popen([PARVIS, "soundserver", "--port", "0", "--device", str(device), "--seconds", str(seconds)], stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True, env={**os.environ, **environment})
 
-        with subprocess.Popen([PARVIS, "soundserver", "--port", "0", "--device", str(self.folder / "served.wav"),
-                               "--seconds", "3"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as server:
-            port = int(re.search(r"port (\d+)", server.stdout.readline())[1])
+    def port_of(self, server):
+        return int(re.search(r"port (\d+)", server.stdout.readline())[1])
+
+    def osc(self, address, types="", arguments=b""):
+        text = lambda value: value.encode() + bytes(4 - len(value) % 4)
+        return text(address) + text("," + types) + arguments
+
+    def fountain(self, *direction):
+        return self.osc("/parvis/sound", "is" + "f" * 12, struct.pack(">i", 7) + b"fountain" + bytes(4) + struct.pack(">12f", *direction, *[70] * 8, 0.1))
+
+    def test_a_server_plays_what_it_is_sent_and_survives_the_rest(self):
+        with self.server(self.folder / "served.wav", 3) as server:
+            port = self.port_of(server)
             with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as client:
                 client.settimeout(5)
-                client.sendto(text("/parvis/ping") + text(","), ("127.0.0.1", port))
+                client.sendto(self.osc("/parvis/ping"), ("127.0.0.1", port))
                 self.assertTrue(client.recv(100).startswith(b"/parvis/pong"))
-                sound = text("/parvis/sound") + text(",is" + "f" * 12) + struct.pack(">i", 7) + text("fountain")
-                sound += struct.pack(">12f", -1, 0, 0, *[70] * 8, 0.1)
+                sound = self.fountain(-1, 0, 0)
                 for packet in (b"/parvis/sound\0\0\0", b"#bundle\0", b"x", sound[:40], sound):
                     client.sendto(packet, ("127.0.0.1", port))
             _, errors = server.communicate(timeout=60)
@@ -2304,6 +2379,55 @@ class Sounds(InAFolder):
         samples = self.samples("served.wav")
         self.assertGreater(max(samples[0::2]), 20, "the fountain")
         self.assertEqual(max(map(abs, samples[-2000:])), 0, "faded away after two seconds")
+
+    def heard_by_openal(self, device, *direction):
+        """The channels of two seconds in which OpenAL Soft plays a fountain into a file, and their rate."""
+        heard = self.folder / "heard.wav"
+        settings = self.write("alsoft.conf", f"[general]\nchannels = surround51\nsample-type = int16\n[wave]\nfile = {heard}\n")
+        with self.server(device, 2, ALSOFT_DRIVERS="wave", ALSOFT_CONF=str(settings)) as server:
+            port = self.port_of(server)
+            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as client:
+                for _ in range(10):
+                    client.sendto(self.fountain(*direction), ("127.0.0.1", port))
+                    time.sleep(0.1)
+            _, errors = server.communicate(timeout=60)
+        self.assertEqual(server.returncode, 0, errors)
+        content = heard.read_bytes()
+        channels, rate = struct.unpack("<HI", content[22:28])
+        samples = content[content.index(b"data") + 8:]
+        frames = len(samples) // (2 * channels)
+        samples = struct.unpack(f"<{frames * channels}h", samples[:2 * frames * channels])
+        return [samples[channel::channels] for channel in range(channels)], rate
+
+    def test_openal_plays_on_for_as_long_as_something_sounds(self):
+        (left, right), rate = self.heard_by_openal("default", -1, 0, 0)
+        self.assertEqual(rate, 48000, "nothing is resampled")
+        tenths = [sum(it * it for it in left[begin:begin + 4800]) for begin in range(0, len(left) - 4800, 4800)]
+        loud = [i for i, energy in enumerate(tenths) if energy > 0.05 * max(tenths)]
+        self.assertGreater(max(tenths), 1e9)
+        self.assertGreater(len(loud), 7, tenths)
+        self.assertGreater(sum(it * it for it in left), 2 * sum(it * it for it in right), "from the left")
+
+    def test_loudspeakers_by_openal_have_a_centre(self):
+        channels, _ = self.heard_by_openal("default@5.1", 0, 1, 0)
+        self.assertEqual(len(channels), 6)
+        energies = [sum(it * it for it in channel) for channel in channels]
+        self.assertGreater(energies[2], 1e9)
+        self.assertGreater(energies[2], 100 * (sum(energies) - energies[2]), "ahead is the centre alone")
+
+    def test_recordings_and_beds_of_a_window_reach_a_server(self):
+        if not shutil.which("xvfb-run"):
+            self.skipTest("skipped: no xvfb-run here")
+        self.tone("bed.wav", 2.0)
+        scene = self.write("scene.xp", 'sun()\nsound(kind="bed", file="bed.wav", level_db=20)\ncamera(name="a", position="0 -3 2")\n')
+        with self.server(self.folder / "served.wav", 20) as server:
+            done = run("view", scene, *SIZE, "--frames", 150, "--sound", f"osc://127.0.0.1:{self.port_of(server)}",
+                       before=["xvfb-run", "-a", "-f", str(self.folder / "Xauthority")])
+            self.assertEqual(done.returncode, 0, done.stderr)
+            server.send_signal(signal.SIGINT)
+            _, errors = server.communicate(timeout=60)
+        self.assertNotIn("refused", errors)
+        self.assertGreater(max(self.samples("served.wav")), 1000, errors)
 
     def test_the_window_sounds_and_goes_on_without_a_device(self):
         if not shutil.which("xvfb-run"):

@@ -1,6 +1,9 @@
 #include "viewer/window_hearing.h"
 
+#include <algorithm>
 #include <chrono>
+
+#include "base/files.h"
 
 namespace parvis::viewer {
 namespace {
@@ -26,14 +29,42 @@ void Hearing::begin_to_play() {
     message_ = "No sound: " + to_string(server.errors());
 }
 
+void Hearing::send(const sound::OscMessage& message) {
+  if (const Result<std::string> packet = sound::liblo.call(&sound::LibloFunctions::encode, message))
+    server_->send(*packet);
+}
+
+/// Read when it is first heard. A file that is gone by then has no bytes: nothing is sent.
+const Hearing::SentFile& Hearing::sent_file(const sound::Recording& recording) {
+  SentFile& sent = sent_files_[recording.file];
+  if (sent.name.empty()) {
+    Result<std::string> bytes = read_file(recording.file, sound::max_recording_bytes);
+    sent.bytes = bytes ? *std::move(bytes) : std::string();
+    sent.name = sound::name_of_recording(sent.bytes);
+  }
+  return sent;
+}
+
+/// Sends the parts of a recording that the server lacks.
+void Hearing::answer(const sound::OscMessage& wanted) {
+  if (wanted.address != "/parvis/want" || wanted.numbers.size() != 3) return;
+  for (const auto& [path, file] : sent_files_) {
+    if (file.name != wanted.texts[0]) continue;
+    const auto first = std::size_t(std::clamp(wanted.numbers[1], 0.0, 1e9)),
+               count = std::size_t(std::clamp(wanted.numbers[2], 0.0, double(sound::parts_wanted)));
+    for (std::size_t i = first; i < first + count && i * sound::part_bytes < file.bytes.size(); ++i)
+      send(sound::part_of(file.name, file.bytes, i));
+  }
+}
+
 /// Packets go to a server that has vanished, too: it may come back.
-void Hearing::tell_server(std::span<const sound::HeardSound> heard, double time_s) {
-  const auto send = [&](const sound::OscMessage& message) {
-    if (const Result<std::string> packet = sound::liblo.call(&sound::LibloFunctions::encode, message))
-      server_->send(*packet);
-  };
+void Hearing::tell_server(const scene::Scene& scene, std::span<const sound::HeardSound> heard,
+                          double time_s) {
   bool answers = false;
-  while (!server_->receive(0).empty()) answers = true;
+  for (std::string packet = server_->receive(0); !packet.empty(); packet = server_->receive(0)) {
+    answers = true;
+    if (const auto message = sound::liblo.call(&sound::LibloFunctions::decode, packet)) answer(*message);
+  }
   unanswered_s_ = answers ? 0.0 : unanswered_s_ + waited_s_;
   if (const bool is_lost = unanswered_s_ > patience_s; is_lost != is_server_lost_) {
     is_server_lost_ = is_lost;
@@ -43,7 +74,9 @@ void Hearing::tell_server(std::span<const sound::HeardSound> heard, double time_
   send({"/parvis/ping", {}, {}});
   send({"/parvis/mute", {is_muted_ ? 1.0 : 0.0}, {""}});
   for (const sound::HeardSound& sound : heard)
-    if (!sound.recording) send(sound::message_of(sound, time_s));
+    send(sound::message_of(sound, time_s, sound.recording ? sent_file(*sound.recording).name : ""));
+  for (const sound::Bed& bed : sound::beds_of(scene))
+    send({"/parvis/bed", {0.0, double(bed.gain)}, {sent_file(*bed.recording).name, ""}});
 }
 
 std::string Hearing::take_message() {
@@ -57,7 +90,8 @@ void Hearing::step(const scene::Scene& scene, const Camera& ears, double time_s,
   if (waited_s_ < update_s / share_) return;
   if (!listening_) {
     if (!found_.valid()) {
-      if (sound::beds_of(scene).empty() && sound::SceneSounds().at(scene, 0.0).empty()) return;
+      const glm::dvec3 place(ears.world_from_camera[3]);
+      if (sound::beds_of(scene).empty() && sound::SceneSounds().at(scene, 0.0, place).empty()) return;
       found_ = std::async(std::launch::async, [place = scene] {
         return std::make_unique<sound::Listening>(place, sound::Output::headphones);
       });
@@ -69,7 +103,7 @@ void Hearing::step(const scene::Scene& scene, const Camera& ears, double time_s,
   std::vector<sound::HeardSound> heard = listening_->heard(scene, ears, time_s, waited_s_);
   sounds_ = listening_->sources();
   if (share_ < 1.0) sound::keep_loudest(heard, std::size_t(share_ * double(max_voices_when_lowered)));
-  if (server_) tell_server(heard, time_s);
+  if (server_) tell_server(scene, heard, time_s);
   if (playback_) {
     playback_->mute(is_muted_);
     playback_->update(std::move(heard), sound::beds_of(scene), time_s);

@@ -1,7 +1,9 @@
 // What the window sounds like: the scene at the visitor's ears, played by a thread of its own.
 #pragma once
 
+#include <filesystem>
 #include <future>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,14 +39,22 @@ class Hearing {
   std::string take_message();
 
  private:
+  /// A recording as a server asks for it.
+  struct SentFile {
+    std::string name, bytes;
+  };
+  const SentFile& sent_file(const sound::Recording& recording);
+  void answer(const sound::OscMessage& wanted);
+  void send(const sound::OscMessage& message);
   void begin_to_play();
-  void tell_server(std::span<const sound::HeardSound> heard, double time_s);
+  void tell_server(const scene::Scene& scene, std::span<const sound::HeardSound> heard, double time_s);
 
   std::string device_;
   std::future<std::unique_ptr<sound::Listening>> found_;
   std::unique_ptr<sound::Listening> listening_;
   std::unique_ptr<sound::Playback> playback_;  ///< null: a server plays
   std::optional<sound::Datagrams> server_;
+  std::map<std::filesystem::path, SentFile> sent_files_;
   double waited_s_ = 0.0, unanswered_s_ = 0.0;
   bool is_muted_ = false, is_server_lost_ = false;
   std::string message_;

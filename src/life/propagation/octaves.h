@@ -19,6 +19,9 @@ inline constexpr Octaves nominal_hz{63, 125, 250, 500, 1000, 2000, 4000, 8000};
 /// A-weights in dB, rounded as CNOSSOS-EU's test cases round them.
 inline constexpr Octaves a_weights_db{-26.2, -16.1, -8.6, -3.2, 0.0, 1.2, 1.0, -1.1};
 
+/// G of gravel and sand; hard ground has 0, porous ground 1 (CNOSSOS-EU, table 2.5.a).
+inline constexpr double gravel_factor = 0.7;
+
 /// The level of silence in dB: sums of levels stay finite.
 inline constexpr double silence_db = -200.0;
 

@@ -60,15 +60,22 @@ double path_difference(Point source, std::span<const Point> edges, Point receive
 // ---- diffraction, 2.5.5
 // -------------------------------------------------------------------------------------
 
-/// Δdif in dB of one band for a path difference; `between_m` separates the first edge from the last.
-double edge_loss(double difference_m, double between_m, double wavelength_m) {
-  double several = 1.0;  // C''
-  if (between_m > 0.3) {
-    const double ratio = 5.0 * wavelength_m / between_m;
-    several = (1.0 + ratio * ratio) / (1.0 / 3.0 + ratio * ratio);
-  }
+/// C'' of edges of which the first and the last are so far apart.
+double several_edges(double between_m, double wavelength_m) {
+  if (between_m <= 0.3) return 1.0;
+  const double ratio = 5.0 * wavelength_m / between_m;
+  return (1.0 + ratio * ratio) / (1.0 / 3.0 + ratio * ratio);
+}
+
+/// Δdif in dB of one band for a path difference.
+double loss_of_edges(double difference_m, double several, double wavelength_m) {
   const double x = 40.0 / wavelength_m * several * difference_m;
   return x >= -2.0 ? std::max(10.0 * std::log10(3.0 + x), 0.0) : 0.0;
+}
+
+/// The same; `between_m` separates the first edge from the last.
+double edge_loss(double difference_m, double between_m, double wavelength_m) {
+  return loss_of_edges(difference_m, several_edges(between_m, wavelength_m), wavelength_m);
 }
 
 // ---- ground, 2.5.3
@@ -288,9 +295,12 @@ Octaves attenuation_around(const Profile& profile, const Detour& detour, const O
                            Condition condition) {
   Octaves result = ground_of_whole_path(Cut(profile, condition));
   const double divergence = divergence_db(detour.direct_m), longer_m = detour.path_m - detour.direct_m;
-  for (std::size_t i = 0; i < octaves; ++i)
-    result[i] +=
-        divergence + air_db_per_m[i] * detour.path_m + edge_loss(longer_m, detour.between_m, wavelength(i));
+  for (std::size_t i = 0; i < octaves; ++i) {
+    const double wave = wavelength(i);
+    const double several = std::pow(several_edges(detour.between_m, wave), 1.0 - detour.grazed[i]) *
+                           std::pow(several_edges(detour.with_grazed_m, wave), detour.grazed[i]);
+    result[i] += divergence + air_db_per_m[i] * detour.path_m + loss_of_edges(longer_m, several, wave);
+  }
   return result;
 }
 
@@ -305,7 +315,7 @@ std::optional<Octaves> reflection_loss(const Profile& profile, std::span<const R
     const Point from = behind == edges.begin() ? cut.source : *std::prev(behind),
                 to = behind == edges.end() ? cut.receiver : *behind, top(wall.distance_m, wall.top_z_m);
     const double ray_z = line_at(from, to, top.x) + cut.lengths.rise(top.x - from.x, to.x - from.x);
-    if (ray_z >= top.y) return std::nullopt;
+    if (ray_z >= top.y || ray_z < wall.bottom_z_m) return std::nullopt;
     // The part of the wave that passes over the edge is lost.
     const double difference_m = -std::abs(path_difference(from, {&top, 1}, to, cut.lengths));
     for (std::size_t i = 0; i < octaves; ++i) {

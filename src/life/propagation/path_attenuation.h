@@ -46,13 +46,19 @@ struct Detour {
   double direct_m = 0.0;   ///< from source to receiver
   double path_m = 0.0;     ///< along the path
   double between_m = 0.0;  ///< from the first corner to the last, along the path
+  /// The path passes one more corner, in clear sight of it but near: as if it were a corner by a weight from
+  /// 0 to 1 in each octave, so that levels do not step where it becomes one. By the Directive the weight is
+  /// 0.
+  double with_grazed_m = 0.0;  ///< as `between_m`, with that corner
+  Octaves grazed{};            ///< the weights
 };
 
 /// A facade or wall that reflects a path.
 struct Reflector {
-  double distance_m = 0.0;  ///< in plan from the source, along the unfolded path
-  double top_z_m = 0.0;     ///< absolute height of its upper edge
-  Octaves absorption{};     ///< α: 0 reflects all energy
+  double distance_m = 0.0;   ///< in plan from the source, along the unfolded path
+  double top_z_m = 0.0;      ///< absolute height of its upper edge
+  double bottom_z_m = -1e9;  ///< it reflects nothing that passes below
+  Octaves absorption{};      ///< α: 0 reflects all energy
 };
 
 /// Attenuation in dB of the path that lies in the profile's plane, over all that stands there (2.5.3 to

@@ -109,7 +109,7 @@ TEST(Site, MirrorsASourceAtAFacade) {
   const BoxOnPlain terrain;
   const Site site(terrain, BoxOnPlain::walls());
   PathChoice choice;
-  const auto sequences = site.sequences_seen_from({-15, 6}, choice);
+  const auto sequences = site.sequences_seen_from({-15, 6, 1}, choice);
   ASSERT_FALSE(sequences.empty());
   int lines = 0;
   for (const WallSequence& walls : sequences)
@@ -145,22 +145,61 @@ TEST(Site, LevelsDoNotJumpAtTheShadowOfACorner) {
   std::vector<Wall> walls = BoxOnPlain::walls();
   for (Wall& wall : walls) wall.top_a = wall.top_b = 60.0;  // nothing comes over it
   const Site site(terrain, walls);
-  const PathChoice choice{.reflections = 0};
-  double largest_db = 0.0, largest_without_db = 0.0, before = 0.0, before_without = 0.0;
-  // Behind the box, from its shadow into the light; beyond y = 5, where a second edge leaves the way round
-  // and the standard's C" steps from 3 to 1.
-  constexpr double begin = 5.1;
-  for (double y = begin; y < 40.0; y += 0.02) {
-    const Place source(-20, 0, 1), receiver(20, y, 1.7);
-    const Octaves heard = site.transfer(source, receiver, {}, choice, air_10_70).homogeneous_db,
-                  lost = site.grazing_loss(source, receiver);
-    const double now = heard[3] - lost[3], without = heard[3];
-    if (y > begin) largest_db = std::max(largest_db, std::abs(now - before));
-    if (y > begin) largest_without_db = std::max(largest_without_db, std::abs(without - before_without));
-    before = now, before_without = without;
+  const PathChoice of_map{.reflections = 0}, heard{.reflections = 0, .softens_shadows = true};
+  // Behind the box, from its shadow into the light; at y = 5 a second edge leaves the way round.
+  const auto largest_step_db = [&](const PathChoice& choice, double from_m, double to_m) {
+    double largest_db = 0.0, before = 0.0;
+    for (double y = from_m; y < to_m; y += 0.02) {
+      const double now = site.transfer({-20, 0, 1}, {20, y, 1.7}, {}, choice, air_10_70).homogeneous_db[3];
+      if (y > from_m) largest_db = std::max(largest_db, std::abs(now - before));
+      before = now;
+    }
+    return largest_db;
+  };
+  EXPECT_LT(largest_step_db(heard, 4.5, 40.0), 0.5);
+  EXPECT_GT(largest_step_db(of_map, 5.1, 40.0), 3.0) << "at the shadow's edge";
+  EXPECT_GT(largest_step_db(of_map, 4.5, 5.5), 1.0) << "where C\" steps from 3 to 1";
+}
+
+/// An arcade 4 m deep and 3.5 m high along the x axis, before a house 12 m high: its back wall lies at y = 4.
+class ArcadeOnPlain final : public Terrain {
+ public:
+  double ground_z(glm::dvec2) const override { return 0.0; }
+  double ground_factor(glm::dvec2) const override { return 0.0; }
+  std::optional<double> roof_z(glm::dvec2 p) const override {
+    return p.y >= 0.0 && p.y <= 12.0 ? std::optional(12.0) : std::nullopt;
   }
-  EXPECT_LT(largest_db, 0.5);
-  EXPECT_GT(largest_without_db, 3.0) << "without it the level jumps";
+  std::optional<double> ceiling_z(glm::dvec2 p) const override {
+    return p.y >= 0.0 && p.y < 4.0 ? std::optional(3.5) : std::nullopt;
+  }
+  void add_breaks(glm::dvec2, glm::dvec2, std::vector<double>&) const override {}
+};
+
+TEST(Site, SoundPassesBelowTheFrontOfAnArcade) {
+  const ArcadeOnPlain terrain;
+  std::vector<Wall> walls{{{-40, 0}, {40, 0}, 12, 12, Octaves{}, 3.5},
+                          {{-40, 4}, {40, 4}, 12, 12, Octaves{}}};
+  const Site open(terrain, walls);
+  walls[0].bottom = -1e9;
+  const Site closed(terrain, walls);
+  const Place source(3, -10, 0.5), receiver(0, 2, 1.7);
+  const PathChoice choice;
+  const auto level_db = [&](const Site& site, const Place& place) {
+    const auto sequences = site.sequences_seen_from(place, choice);
+    return site.transfer(source, place, sequences, choice, air_10_70).homogeneous_db[4];
+  };
+  EXPECT_GT(level_db(open, receiver), level_db(closed, receiver) + 15.0);
+  int reflected = 0;
+  for (const SoundPath& path : open.paths(source, receiver, open.sequences_seen_from(receiver, choice),
+                                          choice, air_10_70, Condition::homogeneous)) {
+    if (!path.walls) continue;
+    ++reflected;
+    EXPECT_NEAR(path.comes_from.y, 4.0, 1e-9) << "the back wall, which the closed front hides";
+    EXPECT_NEAR(path.length_m, glm::distance(Place(3, -10, 0.5), Place(0, 6, 1.7)), 1e-9);
+  }
+  EXPECT_EQ(reflected, 1);
+  EXPECT_NEAR(level_db(open, {0, 2, 5}), level_db(closed, {0, 2, 5}), 1e-9)
+      << "above the opening it is a wall";
 }
 
 TEST(Site, PathsAreReciprocalOverHardGround) {
@@ -179,7 +218,7 @@ TEST(Site, OutlierPlacesAreAnswered) {
   for (const Site* each : {&site, &empty})
     for (const Place& source :
          {Place(0, 0, 1), Place(5, 5, 1), Place(1e5, 0, 1)}) {  // inside, at a corner, far off
-      const auto sequences = each->sequences_seen_from(glm::dvec2(source), choice);
+      const auto sequences = each->sequences_seen_from(source, choice);
       for (const double loss :
            each->transfer(source, {0, 0, 1}, sequences, choice, air_10_70).long_term_db(0.5))
         EXPECT_TRUE(std::isfinite(loss));

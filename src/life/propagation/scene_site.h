@@ -19,6 +19,7 @@ class SceneTerrain final : public Terrain {
   double ground_z(glm::dvec2 place) const override { return double(heights_.at(glm::vec2(place))); }
   double ground_factor(glm::dvec2 place) const override;
   std::optional<double> roof_z(glm::dvec2 place) const override;
+  std::optional<double> ceiling_z(glm::dvec2 place) const override;
   void add_breaks(glm::dvec2 from, glm::dvec2 to, std::vector<double>& distances_m) const override;
 
   /// The plan that is covered: x and y of its lower left and upper right corners, metres.
@@ -27,12 +28,14 @@ class SceneTerrain final : public Terrain {
  private:
   scene::PlaceHeights heights_;
   scene::HeightRaster roofs_m_;         // NaN where no building stands
+  scene::HeightRaster ceilings_m_;      // NaN where nobody stands below a roof
   scene::GroundRaster<float> factors_;  // G
 };
 
 /// Upright surfaces of static objects: triangles that lie in one plane joined to walls that are longer than a
 /// metre and rise 1.5 m or more over the ground. Walls with open ground on a side reflect with
-/// `facade_absorption`.
+/// `facade_absorption`. Those that begin over somebody's head, with open ground on both sides, are open
+/// below: the fronts of arcades, balconies and bridges.
 std::vector<Wall> walls_of(const scene::Scene& scene, const SceneTerrain& terrain);
 
 /// Absorption of facades, which CNOSSOS-EU's users take where nothing is measured: 1 dB is lost.

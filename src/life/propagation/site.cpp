@@ -57,6 +57,12 @@ std::vector<dvec2> hull_side(dvec2 from, dvec2 to, std::span<const dvec2> corner
 
 }  // namespace
 
+/// The corner that a line in clear sight passes most nearly.
+struct Site::Grazed {
+  double difference_m;  ///< by which the way by the corner is longer
+  double from_begin_m;
+};
+
 /// Where a line crosses a wall.
 struct Site::Crossing {
   double distance_m;  ///< from the line's begin
@@ -178,13 +184,15 @@ Site::Site(const Terrain& terrain, std::vector<Wall> walls)
 Site::~Site() = default;
 Site::Site(Site&&) noexcept = default;
 
-std::vector<Site::Crossing> Site::crossings(dvec2 from, dvec2 to) const {
+/// Walls that a straight line in space does not pass below.
+std::vector<Site::Crossing> Site::crossings(const Place& begin, const Place& end) const {
   std::vector<Crossing> found;
+  const dvec2 from(begin), to(end);
   const double length_m = glm::distance(from, to);
   rays_->for_each_near(from, to, [&](int index) {
     const Wall& wall = walls_[std::size_t(index)];
     const std::optional<dvec2> at = intersection(from, to, wall.a, wall.b);
-    if (!at) return;
+    if (!at || glm::mix(begin.z, end.z, at->x) < wall.bottom) return;
     const double distance_m = at->x * length_m;
     if (distance_m > touch_m && distance_m < length_m - touch_m)
       found.push_back({distance_m, glm::clamp(at->y, 0.0, 1.0), index});
@@ -197,11 +205,13 @@ std::vector<Site::Crossing> Site::crossings(dvec2 from, dvec2 to) const {
   return found;
 }
 
-void Site::add_leg(dvec2 from, dvec2 to, double offset_m, Profile& profile) const {
+void Site::add_leg(const Place& begin_of_leg, const Place& end_of_leg, double offset_m,
+                   Profile& profile) const {
+  const dvec2 from(begin_of_leg), to(end_of_leg);
   const double length_m = glm::distance(from, to);
   if (length_m < 1e-9) return;
   const dvec2 along = (to - from) / length_m;
-  const std::vector<Crossing> crossed = crossings(from, to);
+  const std::vector<Crossing> crossed = crossings(begin_of_leg, end_of_leg);
   std::vector<double> cuts{0.0, length_m};
   terrain_.add_breaks(from, to, cuts);
   for (const Crossing& crossing : crossed) {
@@ -227,7 +237,9 @@ void Site::add_leg(dvec2 from, dvec2 to, double offset_m, Profile& profile) cons
     // Roofs begin and end at walls.
     const bool is_between_walls = !crossed.empty() && begin >= crossed.front().distance_m - 1e-9 &&
                                   end <= crossed.back().distance_m + 1e-9;
-    if (const std::optional<double> roof = is_between_walls ? terrain_.roof_z(middle) : std::nullopt) {
+    const double z = glm::mix(begin_of_leg.z, end_of_leg.z, 0.5 * (begin + end) / length_m);
+    if (const std::optional<double> roof =
+            is_between_walls && terrain_.is_built(middle, z) ? terrain_.roof_z(middle) : std::nullopt) {
       constexpr double inside_m = 0.05;
       const double in = std::min(inside_m, 0.25 * width);
       add(begin, terrain_.roof_z(from + along * (begin + in)).value_or(*roof), 0.0);
@@ -244,10 +256,15 @@ void Site::add_leg(dvec2 from, dvec2 to, double offset_m, Profile& profile) cons
 Profile Site::profile(std::span<const dvec2> line, double source_z, double receiver_z) const {
   Profile result;
   result.source_z_m = source_z, result.receiver_z_m = receiver_z;
-  double offset_m = 0.0;
+  double offset_m = 0.0, length_m = 0.0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) length_m += glm::distance(line[i], line[i + 1]);
+  const auto in_space = [&](std::size_t i, double at_m) {
+    return Place(line[i], glm::mix(source_z, receiver_z, at_m / std::max(length_m, 1e-9)));
+  };
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    add_leg(line[i], line[i + 1], offset_m, result);
-    offset_m += glm::distance(line[i], line[i + 1]);
+    const double next_m = offset_m + glm::distance(line[i], line[i + 1]);
+    add_leg(in_space(i, offset_m), in_space(i + 1, next_m), offset_m, result);
+    offset_m = next_m;
   }
   // Source and receiver above each other: a profile needs two points.
   while (result.ground.size() < 2)
@@ -261,11 +278,11 @@ std::vector<dvec2> Site::corners_around(const Place& source, const Place& receiv
   const dvec2 from(source), to(receiver), direct = to - from;
   const double direct_m = glm::length(direct);
   if (direct_m < 1.0) return {};
-  const auto height_over_ray = [&](dvec2 place, double top) {
+  const auto ray_z = [&](dvec2 place) {
     const double along_m = glm::clamp(glm::dot(place - from, direct) / direct_m, 0.0, direct_m);
-    return top - glm::mix(source.z, receiver.z, along_m / direct_m) -
-           rise_of_ray(along_m, direct_m, condition);
+    return glm::mix(source.z, receiver.z, along_m / direct_m) + rise_of_ray(along_m, direct_m, condition);
   };
+  const auto height_over_ray = [&](dvec2 place, double top) { return top - ray_z(place); };
   const double side = is_left ? 1.0 : -1.0;
   std::vector<dvec2> corners, path{from, to};
   std::unordered_set<int> reached;
@@ -277,7 +294,7 @@ std::vector<dvec2> Site::corners_around(const Place& source, const Place& receiv
       open.pop_back();
       const Wall& wall = walls_[std::size_t(index)];
       const double a = height_over_ray(wall.a, wall.top_a), b = height_over_ray(wall.b, wall.top_b);
-      if ((a < 0.0 && b < 0.0) || !reached.insert(index).second) continue;
+      if ((a < 0.0 && b < 0.0) || ray_z(wall.a) < wall.bottom || !reached.insert(index).second) continue;
       for (const dvec2 corner : {a >= 0.0 ? wall.a : glm::mix(wall.a, wall.b, a / (a - b)),
                                  b >= 0.0 ? wall.b : glm::mix(wall.a, wall.b, a / (a - b))})
         if (side * cross(direct, corner - from) > 1e-6 * direct_m) corners.push_back(corner);
@@ -292,7 +309,8 @@ std::vector<dvec2> Site::corners_around(const Place& source, const Place& receiv
     bool is_free = true;
     const std::size_t before = reached.size();
     for (std::size_t i = 0; i + 1 < path.size(); ++i)
-      for (const Crossing& crossing : crossings(path[i], path[i + 1])) {
+      for (const Crossing& crossing :
+           crossings(Place(path[i], ray_z(path[i])), Place(path[i + 1], ray_z(path[i + 1])))) {
         const Wall& wall = walls_[std::size_t(crossing.wall)];
         const double wall_m = glm::distance(wall.a, wall.b), u_m = crossing.fraction * wall_m;
         if (round > 0 && (u_m < touch_m || u_m > wall_m - touch_m)) continue;  // the path touches a corner
@@ -306,7 +324,9 @@ std::vector<dvec2> Site::corners_around(const Place& source, const Place& receiv
          ++i) {                                 // from corner to corner inside a building
       const dvec2 leg = path[i + 1] - path[i];  // along a wall: its middle lies a touch outside
       const dvec2 middle = path[i] + 0.5 * leg + side * touch_m * glm::normalize(dvec2(-leg.y, leg.x));
-      if (const auto roof = terrain_.roof_z(middle); roof && height_over_ray(middle, *roof) > 1e-3) return {};
+      if (terrain_.is_built(middle, ray_z(middle)) &&
+          height_over_ray(middle, *terrain_.roof_z(middle)) > 1e-3)
+        return {};
     }
     if (is_free) return {path.begin() + 1, path.end() - 1};
     if (reached.size() == before) return {};
@@ -335,14 +355,21 @@ std::vector<dvec2> Site::reflected_line(const Place& source, const Place& receiv
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {  // before each wall the path lies outdoors
     const dvec2 back = line[i - 1] - line[i];
     const double back_m = glm::length(back);
-    if (back_m > 1e-6 && terrain_.roof_z(line[i] + back * (std::min(0.05, 0.5 * back_m) / back_m))) return {};
+    if (back_m > 1e-6 &&
+        terrain_.is_built(line[i] + back * (std::min(0.05, 0.5 * back_m) / back_m), receiver.z))
+      return {};
   }
   return line;
 }
 
-std::optional<Site::WallHit> Site::reflecting_wall(dvec2 from, dvec2 to, int but) const {
-  const int hit = rays_->nearest(
-      from, to, [&](int wall) { return wall != but && walls_[std::size_t(wall)].absorption.has_value(); });
+std::optional<Site::WallHit> Site::reflecting_wall(const Place& begin, const Place& end, int but) const {
+  const dvec2 from(begin), to(end);
+  const int hit = rays_->nearest(from, to, [&](int index) {
+    const Wall& wall = walls_[std::size_t(index)];
+    if (index == but || !wall.absorption) return false;
+    const std::optional<dvec2> at = intersection(from, to, wall.a, wall.b);
+    return !at || glm::mix(begin.z, end.z, at->x) >= wall.bottom;
+  });
   if (hit < 0) return std::nullopt;
   const Wall& wall = walls_[std::size_t(hit)];
   const std::optional<dvec2> at = intersection(from, to, wall.a, wall.b);
@@ -356,15 +383,16 @@ dvec2 Site::turned_by(int wall, dvec2 direction) const {
   return direction - 2.0 * glm::dot(direction, normal) * normal;
 }
 
-std::vector<WallSequence> Site::sequences_seen_from(dvec2 receiver, const PathChoice& choice) const {
+std::vector<WallSequence> Site::sequences_seen_from(const Place& receiver, const PathChoice& choice) const {
   std::set<WallSequence> found;
   for (int i = 0; i < choice.directions && choice.reflections > 0; ++i) {
     const double angle = 2.0 * std::numbers::pi * (i + 0.5) / choice.directions;
-    dvec2 from = receiver, along(std::cos(angle), std::sin(angle));
+    dvec2 from(receiver), along(std::cos(angle), std::sin(angle));
     double left_m = choice.max_length_m;
     WallSequence sequence;
     for (int order = 0; order < choice.reflections; ++order) {
-      const auto hit = reflecting_wall(from, from + along * left_m, sequence.empty() ? -1 : sequence.front());
+      const auto hit = reflecting_wall(Place(from, receiver.z), Place(from + along * left_m, receiver.z),
+                                       sequence.empty() ? -1 : sequence.front());
       if (!hit) break;
       sequence.insert(sequence.begin(), hit->wall);  // from the source to the receiver
       found.insert(sequence);
@@ -383,7 +411,7 @@ Octaves Site::over(const Place& source, const Place& receiver, const Octaves& ai
 }
 
 Octaves Site::around(const Place& source, const Place& receiver, std::span<const dvec2> corners,
-                     const Octaves& air_db_per_m, Condition condition) const {
+                     const Octaves& air_db_per_m, Condition condition, bool softens_shadows) const {
   // Corners lie in the plane through source and receiver that is level across the line between them.
   const dvec2 direct = dvec2(receiver) - dvec2(source);
   std::vector<dvec2> line{dvec2(source)};
@@ -400,11 +428,28 @@ Octaves Site::around(const Place& source, const Place& receiver, std::span<const
     detour.path_m += leg_m;
     if (i > 0 && i + 2 < line.size()) detour.between_m += leg_m;
   }
+  if (softens_shadows) {
+    // Of the legs at both ends the one that passes another corner more nearly.
+    const std::optional<Grazed> first = grazed(in_space(corners.front()), source),
+                                last = grazed(in_space(corners.back()), receiver);
+    if (const auto& near = !last || (first && first->difference_m < last->difference_m) ? first : last) {
+      detour.with_grazed_m = detour.between_m + near->from_begin_m;
+      const Octaves loss = edge_loss_db(-near->difference_m), full = edge_loss_db(0.0);
+      for (std::size_t i = 0; i < octaves; ++i) detour.grazed[i] = loss[i] / full[i];
+    }
+  }
   return attenuation_around(profile(line, source.z, receiver.z), detour, air_db_per_m, condition);
 }
 
 std::optional<Octaves> Site::reflected(const Place& source, const Place& receiver, std::span<const int> walls,
                                        const Octaves& air_db_per_m, Condition condition) const {
+  const auto path = reflected_path(source, receiver, walls, air_db_per_m, condition);
+  return path ? std::optional(path->attenuation_db) : std::nullopt;
+}
+
+std::optional<SoundPath> Site::reflected_path(const Place& source, const Place& receiver,
+                                              std::span<const int> walls, const Octaves& air_db_per_m,
+                                              Condition condition) const {
   const std::vector<dvec2> line = reflected_line(source, receiver, walls);
   if (line.empty()) return std::nullopt;
   const Profile unfolded = profile(line, source.z, receiver.z);
@@ -416,35 +461,73 @@ std::optional<Octaves> Site::reflected(const Place& source, const Place& receive
     distance_m += glm::distance(line[i], place);
     const double top =
         top_at(wall, glm::distance(wall.a, place) / std::max(glm::distance(wall.a, wall.b), 1e-9));
-    reflectors.push_back({distance_m, top, wall.absorption.value_or(Octaves{})});
+    reflectors.push_back({distance_m, top, wall.bottom, wall.absorption.value_or(Octaves{})});
   }
   const std::optional<Octaves> loss = reflection_loss(unfolded, reflectors, condition);
   if (!loss) return std::nullopt;
-  Octaves result = attenuation_over(unfolded, air_db_per_m, condition);
-  for (std::size_t i = 0; i < octaves; ++i) result[i] += (*loss)[i];
+  SoundPath result{attenuation_over(unfolded, air_db_per_m, condition), {}, unfolded.distance_m()};
+  for (std::size_t i = 0; i < octaves; ++i) result.attenuation_db[i] += (*loss)[i];
+  const double part = distance_m / std::max(unfolded.length_m(), 1e-9);
+  result.comes_from = Place(line[line.size() - 2], glm::mix(source.z, receiver.z, part));
   return result;
 }
 
-Octaves Site::grazing_loss(const Place& source, const Place& receiver) const {
-  const dvec2 from(source), direct = dvec2(receiver) - from;
-  const double square = glm::dot(direct, direct), direct_m = glm::distance(source, receiver);
-  if (square < 1.0) return {};
-  for (const Crossing& crossing : crossings(from, dvec2(receiver))) {
-    const Wall& wall = walls_[std::size_t(crossing.wall)];
-    const double ray = glm::mix(source.z, receiver.z, crossing.distance_m / std::sqrt(square));
-    if (top_at(wall, crossing.fraction) > ray) return {};
-  }
+std::optional<Site::Grazed> Site::grazed(const Place& from, const Place& to) const {
+  const dvec2 begin(from), direct = dvec2(to) - begin;
+  const double square = glm::dot(direct, direct), direct_m = glm::distance(from, to);
   constexpr double reach_m = 0.3;  // beyond this path difference the lowest octave loses nothing
-  double nearest_m = reach_m;
+  std::optional<Grazed> nearest;
   for (const Place& end : ends_) {
-    const double t = glm::dot(dvec2(end) - from, direct) / square;
-    if (t <= 0.0 || t >= 1.0) continue;
-    const Place corner(dvec2(end), glm::mix(source.z, receiver.z, t));
-    if (end.z > corner.z)
-      nearest_m =
-          std::min(nearest_m, glm::distance(source, corner) + glm::distance(corner, receiver) - direct_m);
+    const double t = glm::dot(dvec2(end) - begin, direct) / square;
+    const Place corner(dvec2(end), glm::mix(from.z, to.z, t));
+    if (t <= 0.0 || t >= 1.0 || end.z <= corner.z || glm::distance(corner, from) < touch_m) continue;
+    const double difference_m = glm::distance(from, corner) + glm::distance(corner, to) - direct_m;
+    if (difference_m < (nearest ? nearest->difference_m : reach_m))
+      nearest = Grazed{difference_m, glm::distance(from, corner)};
   }
-  return nearest_m < reach_m ? edge_loss_db(-nearest_m) : Octaves{};
+  return nearest;
+}
+
+/// The loss of clear sight past upright edges, dB by octave; 0 in the shadow.
+Octaves Site::grazing_loss(const Place& source, const Place& receiver) const {
+  const double length_m = glm::distance(dvec2(source), dvec2(receiver));
+  if (length_m < 1.0) return {};
+  for (const Crossing& crossing : crossings(source, receiver))
+    if (top_at(walls_[std::size_t(crossing.wall)], crossing.fraction) >
+        glm::mix(source.z, receiver.z, crossing.distance_m / length_m))
+      return {};
+  const std::optional<Grazed> nearest = grazed(source, receiver);
+  return nearest ? edge_loss_db(-nearest->difference_m) : Octaves{};
+}
+
+std::vector<SoundPath> Site::paths(const Place& source, const Place& receiver,
+                                   std::span<const WallSequence> sequences, const PathChoice& choice,
+                                   const Octaves& air_db_per_m, Condition condition) const {
+  const double direct_m = glm::distance(source, receiver);
+  std::vector<SoundPath> result{{over(source, receiver, air_db_per_m, condition), source, direct_m, nullptr}};
+  if (choice.softens_shadows) {
+    const Octaves loss = grazing_loss(source, receiver);
+    for (std::size_t i = 0; i < octaves; ++i) result[0].attenuation_db[i] += loss[i];
+  }
+  for (const bool is_left : {true, false}) {
+    if (!choice.is_lateral) break;
+    const auto corners = corners_around(source, receiver, condition, is_left, choice.max_length_m);
+    if (corners.empty()) continue;
+    const dvec2 last = corners.back();
+    double length_m = glm::distance(dvec2(source), corners.front()) + glm::distance(last, dvec2(receiver));
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i)
+      length_m += glm::distance(corners[i], corners[i + 1]);
+    result.push_back(
+        {around(source, receiver, corners, air_db_per_m, condition, choice.softens_shadows),
+         Place(last, glm::mix(receiver.z, source.z, glm::distance(last, dvec2(receiver)) / length_m)),
+         std::hypot(length_m, receiver.z - source.z), nullptr});
+  }
+  for (const WallSequence& walls : sequences)
+    if (auto path = reflected_path(source, receiver, walls, air_db_per_m, condition)) {
+      path->walls = &walls;
+      result.push_back(*path);
+    }
+  return result;
 }
 
 Transfer Site::transfer(const Place& source, const Place& receiver, std::span<const WallSequence> sequences,
@@ -452,18 +535,8 @@ Transfer Site::transfer(const Place& source, const Place& receiver, std::span<co
   Transfer result;
   for (const Condition condition : {Condition::homogeneous, Condition::favourable}) {
     Octaves sum{};
-    const auto add = [&](const Octaves& attenuation_db) {
-      for (std::size_t i = 0; i < octaves; ++i) sum[i] += energy(-attenuation_db[i]);
-    };
-    add(over(source, receiver, air_db_per_m, condition));
-    if (choice.is_lateral)
-      for (const bool is_left : {true, false})
-        if (const auto corners = corners_around(source, receiver, condition, is_left, choice.max_length_m);
-            !corners.empty())
-          add(around(source, receiver, corners, air_db_per_m, condition));
-    for (const WallSequence& walls : sequences)
-      if (const auto attenuation = reflected(source, receiver, walls, air_db_per_m, condition))
-        add(*attenuation);
+    for (const SoundPath& path : paths(source, receiver, sequences, choice, air_db_per_m, condition))
+      for (std::size_t i = 0; i < octaves; ++i) sum[i] += energy(-path.attenuation_db[i]);
     Octaves& levels = condition == Condition::homogeneous ? result.homogeneous_db : result.favourable_db;
     for (std::size_t i = 0; i < octaves; ++i) levels[i] = level(sum[i]);
   }

@@ -23,16 +23,25 @@ class Terrain {
   virtual double ground_factor(glm::dvec2 place) const = 0;
   /// Height of the roof over a place, metres; nothing where no building stands.
   virtual std::optional<double> roof_z(glm::dvec2 place) const = 0;
+  /// Height of the underside of a roof or house that is open below it, as over an arcade; else nothing.
+  virtual std::optional<double> ceiling_z(glm::dvec2) const { return std::nullopt; }
+  /// Whether a building stands at a place and height: under a ceiling none does.
+  bool is_built(glm::dvec2 place, double z) const {
+    const std::optional<double> ceiling = roof_z(place) ? ceiling_z(place) : std::nullopt;
+    return ceiling ? z >= *ceiling : roof_z(place).has_value();
+  }
   /// Adds the distances from `from`, metres, at which slope or factor change on the way to `to`, in any
   /// order.
   virtual void add_breaks(glm::dvec2 from, glm::dvec2 to, std::vector<double>& distances_m) const = 0;
 };
 
-/// An upright wall: a facade, or a thin wall that stands alone. Its foot is the ground.
+/// An upright wall: a facade, or a thin wall that stands alone. Its foot is the ground, unless it is open
+/// below.
 struct Wall {
   glm::dvec2 a{0.0}, b{0.0};          ///< ends in plan, metres
   double top_a = 0.0, top_b = 0.0;    ///< absolute heights of its upper edge at the ends
   std::optional<Octaves> absorption;  ///< α of its surface; nothing: reflections are not counted
+  double bottom = -1e9;  ///< absolute height of its lower edge where sound passes below it: over an arcade
 };
 
 /// Where the sound comes from or is heard: plan position and absolute height, metres.
@@ -40,6 +49,14 @@ using Place = glm::dvec3;
 
 /// A path that is reflected in turn by walls: their indices, from the source to the receiver.
 using WallSequence = std::vector<int>;
+
+/// One path from a source to a receiver.
+struct SoundPath {
+  Octaves attenuation_db{};
+  Place comes_from{0.0};                ///< the source, the last corner, or the last point of reflection
+  double length_m = 0.0;                ///< in space
+  const WallSequence* walls = nullptr;  ///< that reflect it; null: none do
+};
 
 /// Attenuations of one pair of places summed over paths: levels at the receiver for a sound power level of
 /// 0 dB, `silence_db` where no path leads.
@@ -56,6 +73,9 @@ struct PathChoice {
   bool is_lateral = true;       ///< also round the ends of what stands in the way
   int directions = 180;         ///< in which walls are sought that reflect toward the receiver
   double max_length_m = 800.0;  ///< of a reflected or lateral path
+  /// Edges diffract sound that passes them in clear sight, too, so that levels do not step where a listener
+  /// walks into a shadow: lateral diffraction with a negative path difference, which CNOSSOS-EU leaves out.
+  bool softens_shadows = false;
 };
 
 /// Walls on a terrain, which must outlive the site. May be asked from several threads.
@@ -86,8 +106,9 @@ class Site {
     double distance_m;  ///< from the line's begin
     double top_z;       ///< of the wall there
   };
-  /// The nearest wall that reflects along a line, other than `but`; nothing where there is none.
-  std::optional<WallHit> reflecting_wall(glm::dvec2 from, glm::dvec2 to, int but = -1) const;
+  /// The nearest wall that reflects along a line, other than `but`; nothing where there is none. Those that
+  /// the line passes below are left out.
+  std::optional<WallHit> reflecting_wall(const Place& from, const Place& to, int but = -1) const;
   /// A direction in plan after its reflection by a wall.
   glm::dvec2 turned_by(int wall, glm::dvec2 direction) const;
 
@@ -96,34 +117,39 @@ class Site {
   std::vector<glm::dvec2> reflected_line(const Place& source, const Place& receiver,
                                          std::span<const int> walls) const;
 
-  /// Sequences of walls, to the highest order, that rays from a receiver find. The walls reflect all rays
-  /// that reach them in plan, whatever their heights.
-  std::vector<WallSequence> sequences_seen_from(glm::dvec2 receiver, const PathChoice& choice) const;
+  /// Sequences of walls, to the highest order, that level rays from a receiver find. The walls reflect all
+  /// rays that reach them in plan, whatever their heights, but for those that pass below.
+  std::vector<WallSequence> sequences_seen_from(const Place& receiver, const PathChoice& choice) const;
 
   /// Attenuation of the path over all in the straight line.
   Octaves over(const Place& source, const Place& receiver, const Octaves& air_db_per_m,
                Condition condition) const;
-  /// Attenuation round plan corners.
+  /// Attenuation round plan corners; `softens_shadows`: see PathChoice.
   Octaves around(const Place& source, const Place& receiver, std::span<const glm::dvec2> corners,
-                 const Octaves& air_db_per_m, Condition condition) const;
+                 const Octaves& air_db_per_m, Condition condition, bool softens_shadows = false) const;
   /// Attenuation by way of walls; nothing where the ray passes above one of them or below the ground.
   std::optional<Octaves> reflected(const Place& source, const Place& receiver, std::span<const int> walls,
                                    const Octaves& air_db_per_m, Condition condition) const;
 
-  /// The loss of clear sight past upright edges, dB by octave, so that levels do not jump where a listener
-  /// steps into the shadow of a corner: lateral diffraction with a negative path difference, which CNOSSOS-EU
-  /// leaves out. 0 in the shadow.
-  Octaves grazing_loss(const Place& source, const Place& receiver) const;
-
-  /// All paths together; `sequences`: those seen from the receiver.
+  /// All paths; `sequences`: those seen from the receiver, which the paths point to.
+  std::vector<SoundPath> paths(const Place& source, const Place& receiver,
+                               std::span<const WallSequence> sequences, const PathChoice& choice,
+                               const Octaves& air_db_per_m, Condition condition) const;
+  /// All paths together.
   Transfer transfer(const Place& source, const Place& receiver, std::span<const WallSequence> sequences,
                     const PathChoice& choice, const Octaves& air_db_per_m) const;
 
  private:
   class Rays;
   struct Crossing;
-  std::vector<Crossing> crossings(glm::dvec2 from, glm::dvec2 to) const;
-  void add_leg(glm::dvec2 from, glm::dvec2 to, double offset_m, Profile& profile) const;
+  struct Grazed;
+  std::vector<Crossing> crossings(const Place& from, const Place& to) const;
+  void add_leg(const Place& from, const Place& to, double offset_m, Profile& profile) const;
+  std::optional<Grazed> grazed(const Place& from, const Place& to) const;
+  Octaves grazing_loss(const Place& source, const Place& receiver) const;
+  std::optional<SoundPath> reflected_path(const Place& source, const Place& receiver,
+                                          std::span<const int> walls, const Octaves& air_db_per_m,
+                                          Condition condition) const;
 
   const Terrain& terrain_;
   std::vector<Wall> walls_;

@@ -27,10 +27,11 @@ struct Matches {
   std::string differing;
 };
 
-/// Printed figures of ISO 9613-2's table 2 (air_absorption.csv), within one unit of the last printed digit.
-Matches compare_air_table(const std::filesystem::path& folder);
+/// Printed figures of ISO 9613-2's table 2 (air_absorption.csv), within one unit of the last printed digit;
+/// in air that is warmer by `warmer_c`, as a control.
+Matches compare_air_table(const std::filesystem::path& folder, double warmer_c = 0.0);
 /// The checks of road_emission_2015_checks.json within its tolerance; `key`: "checks" or "further_checks".
-Matches compare_road_checks(const std::filesystem::path& folder, const char* key);
+Matches compare_road_checks(const std::filesystem::path& folder, const char* key, double warmer_c = 0.0);
 /// Coefficients in use against road_emission_2020.json: each number is one value.
 Matches compare_road_coefficients(const std::filesystem::path& folder);
 

@@ -23,8 +23,9 @@ class Device {
 };
 
 /// Opens a device for at most so many streams: "null" takes moments as time passes and plays nothing;
-/// NAME.wav writes what headphones would play, up to an hour; "default" and all other names are devices of
-/// OpenAL Soft, whose module is loaded now. Errors say what cannot be opened.
+/// NAME.wav writes up to an hour; "default" and all other names are devices of OpenAL Soft, whose module is
+/// loaded now. They play for headphones; with @ and a name of `output_names`, as in "default@5.1", for these
+/// loudspeakers, which the device must have. Errors say what cannot be opened.
 Result<std::unique_ptr<Device>> open_device(const std::string& name, std::size_t streams);
 
 }  // namespace parvis::sound

@@ -1,4 +1,4 @@
-// The late field of squares, streets and courts: what facades reflect more often than the paths of
+// The late field of squares, streets, courts and arcades: what facades reflect more often than the paths of
 // propagation count, from everywhere at once.
 #pragma once
 
@@ -22,6 +22,10 @@ struct Enclosure {
 /// volume of the place, is what a source gives (Kuttruff 2009, 4.1, of a room whose ceiling absorbs all).
 Enclosure enclosure_about(const propagation::Site& site, const glm::dvec3& place, int first_order,
                           const Octaves& air_db_per_m);
+/// The same of what lies below the ceiling over a place, as an arcade: rays that leave through its openings
+/// are lost. Nothing where there is no ceiling.
+Enclosure covered_about(const propagation::Site& site, const glm::dvec3& place, int first_order,
+                        const Octaves& air_db_per_m);
 
 /// The late field of a moving listener: energies that follow their sources as the place decays.
 class LateField {

@@ -48,7 +48,11 @@ Result<OscMessage> decode(std::string_view packet) {
       number = double(lo_hires_val(type, arguments[i]));
     else if (type == LO_STRING || type == LO_SYMBOL)
       text = &arguments[i]->s;
-    else
+    else if (type == LO_BLOB && i + 1 == count) {
+      const auto blob = lo_blob(arguments[i]);
+      result.blob.assign(static_cast<const char*>(lo_blob_dataptr(blob)), lo_blob_datasize(blob));
+      break;
+    } else
       return error("{}: argument {} is of the type '{}'; expected a number or a text", result.address, i + 1,
                    types[i]);
     if (!std::isfinite(number)) return error("{}: argument {} is no number", result.address, i + 1);
@@ -65,6 +69,11 @@ Result<std::string> encode(const OscMessage& message) {
       lo_message_add_float(lo_message(written.get()), float(message.numbers[i]));
     else
       lo_message_add_string(lo_message(written.get()), message.texts[i].c_str());
+  if (!message.blob.empty()) {
+    const lo_blob blob = lo_blob_new(std::int32_t(message.blob.size()), message.blob.data());
+    lo_message_add_blob(lo_message(written.get()), blob);
+    lo_blob_free(blob);
+  }
   std::string packet(lo_message_length(lo_message(written.get()), message.address.c_str()), '\0');
   std::size_t size = packet.size();
   if (!lo_message_serialise(lo_message(written.get()), message.address.c_str(), packet.data(), &size))

@@ -14,6 +14,7 @@ struct OscMessage {
   std::string address;
   std::vector<double> numbers;     ///< of each argument; 0 of texts
   std::vector<std::string> texts;  ///< of each argument; empty of numbers
+  std::string blob = {};           ///< the last argument, which is in neither; empty: there is none
 };
 
 /// The functions of the module.

@@ -2,8 +2,10 @@
 // the mix.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include "base/camera.h"
 #include "life/propagation/air.h"
@@ -44,6 +46,9 @@ class Listening {
  private:
   std::vector<HeardSound> heard(std::span<const Emitter> emitters, const Camera& ears, double time_s,
                                 double step_s);
+  std::vector<HeardSound> heard_of(const Emitter& emitter, const Camera& ears, double time_s,
+                                   std::span<const propagation::SoundPath> paths) const;
+  void find_paths(std::span<const Emitter> emitters, const glm::dvec3& place);
   void add_late_field(std::span<const Emitter> emitters, const glm::dvec3& place, double time_s,
                       double step_s, std::vector<HeardSound>& sounds);
 
@@ -52,9 +57,15 @@ class Listening {
   Octaves air_;
   Mixer mixer_;
   SceneSounds sounds_;
-  Enclosure enclosure_;
+  Enclosure enclosure_, covered_;          ///< the open place, and what lies below the ceiling over the ears
   std::optional<glm::dvec3> enclosed_at_;  ///< where the enclosure was found
-  LateField late_;
+  // While the ears stay where they are, paths from a place to them are kept; sources in one place share them.
+  using PlaceKey = std::tuple<long, long, long>;  // centimetres
+  static PlaceKey key_of(const glm::dvec3& place);
+  std::optional<glm::dvec3> paths_lead_to_;
+  std::vector<propagation::WallSequence> sequences_;
+  std::map<PlaceKey, std::vector<propagation::SoundPath>> found_paths_;
+  LateField late_, late_below_;
   std::size_t sources_ = 0;
 };
 

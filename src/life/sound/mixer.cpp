@@ -131,13 +131,13 @@ void Mixer::choose_clusters(std::span<const HeardSound> sounds) {
 void Mixer::play_events(std::span<const HeardSound> sounds) {
   for (auto& [id, playing] : playing_) playing.is_heard = false;
   std::size_t events = 0;
-  const auto add = [&](const Playing& it, std::uint64_t id, double begin_s, double end_s, const Octaves& from,
+  const auto add = [&](const Playing& it, double begin_s, double end_s, const Octaves& from,
                        const Octaves& to, std::size_t cluster) {
     clusters_[cluster].is_used = clusters_[cluster].is_ending = true;
     if (it.recording)
       it.recording->add(begin_s, end_s, from, to, signals_[cluster]);
     else
-      add_sound(it.kind, id, begin_s, end_s, from, to, signals_[cluster]);
+      add_sound(it.kind, it.seed, begin_s, end_s, from, to, signals_[cluster]);
   };
   for (const std::size_t i : order_) {
     const HeardSound& sound = sounds[i];
@@ -148,7 +148,8 @@ void Mixer::play_events(std::span<const HeardSound> sounds) {
     const double moment_s = double(length) / sample_rate;
     if (found == playing_.end()) {
       playing_.push_back(
-          {sound.id, {sound.kind, sound.recording, sound.emitted_s - moment_s, {}, cluster_of_[i], true}});
+          {sound.id,
+           {sound.kind, sound.seed, sound.recording, sound.emitted_s - moment_s, {}, cluster_of_[i], true}});
       found = playing_.end() - 1;
     }
     Playing& playing = found->second;
@@ -158,17 +159,17 @@ void Mixer::play_events(std::span<const HeardSound> sounds) {
                                ? playing.emitted_s
                                : sound.emitted_s - moment_s;  // it has jumped: no glide
     if (playing.cluster == cluster_of_[i]) {
-      add(playing, sound.id, begin_s, sound.emitted_s, playing.amplitude, now, playing.cluster);
+      add(playing, begin_s, sound.emitted_s, playing.amplitude, now, playing.cluster);
     } else {  // faded over from its former cluster to the new one
-      add(playing, sound.id, begin_s, sound.emitted_s, playing.amplitude, {}, playing.cluster);
-      add(playing, sound.id, begin_s, sound.emitted_s, {}, now, cluster_of_[i]);
+      add(playing, begin_s, sound.emitted_s, playing.amplitude, {}, playing.cluster);
+      add(playing, begin_s, sound.emitted_s, {}, now, cluster_of_[i]);
     }
     playing.emitted_s = sound.emitted_s, playing.amplitude = now, playing.cluster = cluster_of_[i];
   }
   for (auto& [id, playing] : playing_)
     if (!playing.is_heard) {  // faded out
       const double end_s = playing.emitted_s + double(signals_[0].size()) / sample_rate;
-      add(playing, id, playing.emitted_s, end_s, playing.amplitude, {}, playing.cluster);
+      add(playing, playing.emitted_s, end_s, playing.amplitude, {}, playing.cluster);
     }
   std::erase_if(playing_, [](const auto& it) { return !it.second.is_heard; });
   counts_.events = events;

@@ -17,7 +17,8 @@ namespace parvis::sound {
 
 /// A sound as it reaches the listener in one moment.
 struct HeardSound {
-  std::uint64_t id = 0;  ///< the same from moment to moment; the seed of its events
+  std::uint64_t id = 0;    ///< the same from moment to moment
+  std::uint64_t seed = 0;  ///< of its events: those of a sound and of its reflections are the same
   SoundKind kind = SoundKind::car;
   glm::vec3 direction{0, 1, 0};  ///< unit, from the listener: x right, y ahead, z up
   Octaves energy{};              ///< mean square pressure by octave, in the square of `reference`
@@ -67,6 +68,7 @@ class Mixer {
   };
   struct Playing {
     SoundKind kind{};
+    std::uint64_t seed = 0;
     std::shared_ptr<const Recording> recording;
     double emitted_s = 0.0;
     Octaves amplitude{};

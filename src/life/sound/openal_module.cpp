@@ -71,13 +71,16 @@ struct Voice {
     alGenBuffers(ALsizei(buffers), idle.data());
   }
   void collect() {
-    ALint done = 0;
+    ALint done = 0, state = 0;
+    alGetSourcei(source, AL_SOURCE_STATE, &state);
     alGetSourcei(source, AL_BUFFERS_PROCESSED, &done);
     for (; done > 0; --done) {
       ALuint buffer = 0;
       alSourceUnqueueBuffers(source, 1, &buffer);
       idle.push_back(buffer);
     }
+    // A source that has run out of samples counts all that is queued from then on as played.
+    if (state == AL_STOPPED) alSourceRewind(source);
   }
   void queue(ALenum format, std::span<const float> samples) {
     if (idle.empty()) return;
@@ -88,15 +91,65 @@ struct Voice {
   }
 };
 
-constexpr ALCint listening_attributes[]{ALC_FREQUENCY, sample_rate, ALC_HRTF_SOFT, ALC_TRUE, 0};
+constexpr ALCint loudspeaker_attributes[]{ALC_FREQUENCY, sample_rate, ALC_HRTF_SOFT, ALC_FALSE, 0};
+
+/// The attribute of the head that OpenAL's settings name, as it was measured at the rate of all sounds: with
+/// one of 44.1 kHz, which stands first by default, all is resampled.
+std::vector<ALCint> head_attributes(ALCdevice* device) {
+  const auto string_of =
+      reinterpret_cast<LPALCGETSTRINGISOFT>(alcGetProcAddress(device, "alcGetStringiSOFT"));
+  ALCint count = 0;
+  alcGetIntegerv(device, ALC_NUM_HRTF_SPECIFIERS_SOFT, 1, &count);
+  std::vector<ALCint> result{ALC_HRTF_SOFT, ALC_TRUE};
+  if (!string_of || count == 0) return result;
+  const auto name_of = [&](ALCint i) { return std::string(string_of(device, ALC_HRTF_SPECIFIER_SOFT, i)); };
+  std::string wanted = name_of(0);
+  if (const std::size_t at = wanted.find("44100"); at != std::string::npos) wanted.replace(at, 5, "48000");
+  for (ALCint i = 0; i < count; ++i)
+    if (name_of(i) == wanted) {
+      result.insert(result.end(), {ALC_HRTF_ID_SOFT, i});
+      break;
+    }
+  return result;
+}
+
+std::vector<ALCint> listening_attributes(ALCdevice* device) {
+  std::vector<ALCint> result = head_attributes(device);
+  result.insert(result.end(), {ALC_FREQUENCY, sample_rate, 0});
+  return result;
+}
+
+ALenum format_of(std::size_t channels) {
+  return channels == 8   ? AL_FORMAT_71CHN32
+         : channels == 6 ? AL_FORMAT_51CHN32
+         : channels == 4 ? AL_FORMAT_QUAD32
+                         : AL_FORMAT_STEREO_FLOAT32;
+}
+
+/// Signals of several channels, sample by sample.
+template <class Signals>
+std::vector<float> interleaved(const Signals& signals) {
+  std::vector<float> all(std::size(signals) * device_moment);
+  for (std::size_t c = 0; c < std::size(signals); ++c)
+    for (std::size_t k = 0; k < device_moment; ++k) all[k * std::size(signals) + c] = signals[c][k];
+  return all;
+}
 
 class OpenAlDevice final : public Device {
  public:
-  OpenAlDevice(ALCdevice* device, std::size_t streams)
-      : context_(device, listening_attributes), voices_(streams + 1), silence_(device_moment, 0.0f) {
+  /// A voice for each stream, or for `loudspeakers` one with all their channels.
+  OpenAlDevice(ALCdevice* device, std::size_t streams, std::size_t loudspeakers)
+      : context_(device, loudspeakers > 0 ? std::vector<ALCint>(std::begin(loudspeaker_attributes),
+                                                                std::end(loudspeaker_attributes))
+                                          : listening_attributes(device)),
+        voices_((loudspeakers > 0 ? 1 : streams) + 1),
+        silence_(device_moment, 0.0f),
+        loudspeakers_(loudspeakers) {
     if (!context_.is_there()) return;
     for (Voice& voice : voices_) voice.make(queued);
     alSourcei(voices_.back().source, AL_DIRECT_CHANNELS_SOFT, AL_TRUE);  // beds
+    // Else the front centre would be silent.
+    if (loudspeakers > 0) alSourcei(voices_.front().source, AL_DIRECT_CHANNELS_SOFT, AL_TRUE);
   }
   bool is_there() const { return context_.is_there(); }
 
@@ -116,39 +169,41 @@ class OpenAlDevice final : public Device {
     std::vector<ALuint> halted;
     for (std::size_t i = 0; i < voices_.size(); ++i) {
       Voice& voice = voices_[i];
-      if (i < streams.size() && streams[i].is_used) {
+      if (i == 0 && loudspeakers_ > 0) {
+        std::vector<std::span<const float>> signals;
+        for (const Stream& stream : streams) signals.push_back(stream.signal);
+        voice.queue(format_of(loudspeakers_), interleaved(signals));
+      } else if (i + 1 < voices_.size() && i < streams.size() && streams[i].is_used) {
         place(voice.source, streams[i].to);
         voice.queue(AL_FORMAT_MONO_FLOAT32, streams[i].signal);
       } else if (i + 1 < voices_.size()) {
         voice.queue(AL_FORMAT_MONO_FLOAT32, silence_);
       } else {
-        std::vector<float> both(2 * device_moment);
-        for (std::size_t k = 0; k < device_moment; ++k)
-          both[2 * k] = beds[0][k], both[2 * k + 1] = beds[1][k];
-        voice.queue(AL_FORMAT_STEREO_FLOAT32, both);
+        voice.queue(AL_FORMAT_STEREO_FLOAT32, interleaved(beds));
       }
       ALint state = 0;
       alGetSourcei(voice.source, AL_SOURCE_STATE, &state);
       if (state != AL_PLAYING) halted.push_back(voice.source);
     }
-    // All together, so that they stay in step; not before two moments wait.
-    if (!halted.empty() && voices_.front().idle.size() + 2 <= queued)
+    // All together, so that they stay in step; not before half of the moments wait.
+    if (!halted.empty() && 2 * voices_.front().idle.size() <= queued)
       alSourcePlayv(ALsizei(halted.size()), halted.data());
     return alGetError() == AL_NO_ERROR ? Status(Ok{}) : error("the sound device takes no samples");
   }
 
  private:
-  static constexpr std::size_t queued = 4;
+  static constexpr std::size_t queued = 6;  // moments: 120 ms
 
   Context context_;
   std::vector<Voice> voices_;
   std::vector<float> silence_;
+  std::size_t loudspeakers_;
 };
 
 class OpenAlLoopback final : public Loopback {
  public:
   OpenAlLoopback(ALCdevice* device, std::size_t sources, std::span<const float> loop)
-      : context_(device, attributes_for(sources)),
+      : context_(device, attributes_for(device, sources)),
         render_(reinterpret_cast<LPALCRENDERSAMPLESSOFT>(alcGetProcAddress(device, "alcRenderSamplesSOFT"))),
         voices_(sources),
         loop_samples_(loop.size()) {
@@ -198,18 +253,12 @@ class OpenAlLoopback final : public Loopback {
   }
 
  private:
-  static std::vector<ALCint> attributes_for(std::size_t sources) {
-    return {ALC_FORMAT_CHANNELS_SOFT,
-            ALC_STEREO_SOFT,
-            ALC_FORMAT_TYPE_SOFT,
-            ALC_FLOAT_SOFT,
-            ALC_FREQUENCY,
-            sample_rate,
-            ALC_HRTF_SOFT,
-            ALC_TRUE,
-            ALC_MONO_SOURCES,
-            ALCint(sources),
-            0};
+  static std::vector<ALCint> attributes_for(ALCdevice* device, std::size_t sources) {
+    std::vector<ALCint> result = head_attributes(device);
+    result.insert(result.end(),
+                  {ALC_FORMAT_CHANNELS_SOFT, ALC_STEREO_SOFT, ALC_FORMAT_TYPE_SOFT, ALC_FLOAT_SOFT,
+                   ALC_FREQUENCY, sample_rate, ALC_MONO_SOURCES, ALCint(sources), 0});
+    return result;
   }
 
   void take(std::span<float> left, std::span<float> right) {
@@ -225,7 +274,8 @@ class OpenAlLoopback final : public Loopback {
   ALuint loop_ = 0;
 };
 
-Result<std::unique_ptr<Device>> open(const std::string& name, std::size_t streams) {
+Result<std::unique_ptr<Device>> open_with(const std::string& name, std::size_t streams,
+                                          std::size_t loudspeakers) {
   ::setenv("ALSOFT_LOGLEVEL", "0", 0);  // what it would print is said in our words
   ALCdevice* const device = alcOpenDevice(name == "default" ? nullptr : name.c_str());
   if (!device)
@@ -234,9 +284,17 @@ Result<std::unique_ptr<Device>> open(const std::string& name, std::size_t stream
                                    "the sound device \"{}\" cannot be opened; expected default, null, the "
                                    "name of a file that ends in .wav, or off",
                                    name);
-  auto opened = std::make_unique<OpenAlDevice>(device, streams);
+  auto opened = std::make_unique<OpenAlDevice>(device, streams, loudspeakers);
   if (!opened->is_there()) return error("the sound device offers no context");
   return std::unique_ptr<Device>(std::move(opened));
+}
+
+Result<std::unique_ptr<Device>> open(const std::string& name, std::size_t streams) {
+  return open_with(name, streams, 0);
+}
+
+Result<std::unique_ptr<Device>> open_loudspeakers(const std::string& name, std::size_t loudspeakers) {
+  return open_with(name, 0, loudspeakers);
 }
 
 Result<std::unique_ptr<Loopback>> open_loopback(std::size_t sources, std::span<const float> loop) {
@@ -253,4 +311,5 @@ Result<std::unique_ptr<Loopback>> open_loopback(std::size_t sources, std::span<c
 }  // namespace
 }  // namespace parvis::sound
 
-PARVIS_MODULE(parvis::sound::OpenAlFunctions){parvis::sound::open, parvis::sound::open_loopback};
+PARVIS_MODULE(parvis::sound::OpenAlFunctions){parvis::sound::open, parvis::sound::open_loudspeakers,
+                                              parvis::sound::open_loopback};

@@ -22,6 +22,8 @@ class Loopback {
 struct OpenAlFunctions {
   /// "default" is the device that the system or OpenAL's own settings name.
   Result<std::unique_ptr<Device>> (*open)(const std::string& name, std::size_t streams);
+  /// The same for 2, 4, 6 or 8 loudspeakers: the streams are their signals in the order of `channels_of`.
+  Result<std::unique_ptr<Device>> (*open_loudspeakers)(const std::string& name, std::size_t loudspeakers);
   /// A listener for at most so many streams or sources; sources play `loop`.
   Result<std::unique_ptr<Loopback>> (*open_loopback)(std::size_t sources, std::span<const float> loop);
 };

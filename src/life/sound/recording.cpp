@@ -21,21 +21,46 @@ struct RecordingHeader {
   double loudness_lufs;
 };
 
-/// Runs in the worker: the input is the file's path.
-Status decode_sound(std::string_view input, IsolatedOutput& output) {
-  const fs::path file(input);
-  const Result<std::string> bytes = read_file(file, max_recording_bytes);
-  if (!bytes) return bytes.errors();
-  const Result<Recording> made = sound_files.call(&SoundFileFunctions::decode, *bytes, file.string());
+/// Runs in the worker.
+Status decode_bytes(std::string_view bytes, const std::string& name, IsolatedOutput& output) {
+  const Result<Recording> made = sound_files.call(&SoundFileFunctions::decode, bytes, name);
   if (!made) return made.errors();
   const RecordingHeader header{made->left.size(), made->loudness_lufs};
   const std::size_t channel_bytes = made->left.size() * sizeof(float);
   const std::span<std::byte> to = output.allocate(sizeof header + 2 * channel_bytes);
-  if (to.empty()) return error("{}: there is no memory for its samples", file.string());
+  if (to.empty()) return error("{}: there is no memory for its samples", name);
   std::memcpy(to.data(), &header, sizeof header);
   std::memcpy(to.data() + sizeof header, made->left.data(), channel_bytes);
   std::memcpy(to.data() + sizeof header + channel_bytes, made->right.data(), channel_bytes);
   return Ok{};
+}
+
+/// The input is the file's path.
+Status decode_file(std::string_view input, IsolatedOutput& output) {
+  const Result<std::string> bytes = read_file(fs::path(input), max_recording_bytes);
+  return bytes ? decode_bytes(*bytes, std::string(input), output) : Status(bytes.errors());
+}
+
+/// The input is the file itself.
+Status decode_sent(std::string_view input, IsolatedOutput& output) {
+  return decode_bytes(input, "the recording", output);
+}
+
+Result<Recording> taken_from(const Result<IsolatedBytes>& made, const std::string& name) {
+  if (!made) return made.errors();
+  const std::span<const std::byte> bytes = made->bytes();
+  RecordingHeader header{};
+  if (bytes.size() >= sizeof header) std::memcpy(&header, bytes.data(), sizeof header);
+  constexpr auto max_samples = std::uint64_t(max_recording_s * sample_rate);
+  if (header.samples == 0 || header.samples > max_samples || !std::isfinite(header.loudness_lufs) ||
+      bytes.size() != sizeof header + 2 * header.samples * sizeof(float))
+    return error("{}: its reader crashed", name);
+  const float* const first = reinterpret_cast<const float*>(bytes.data() + sizeof header);
+  Recording recording;
+  recording.left.assign(first, first + header.samples);
+  recording.right.assign(first + header.samples, first + 2 * header.samples);
+  recording.loudness_lufs = header.loudness_lufs;
+  return recording;
 }
 
 constexpr std::size_t fft_size = 4096;  // 12 Hz apart: the lowest octave is 44 Hz wide
@@ -115,24 +140,16 @@ void Recording::add(double begin_s, double end_s, const Octaves& from, const Oct
   }
 }
 
+Result<Recording> decode_recording(const std::string& bytes, const std::string& name) {
+  return taken_from(run_isolated(decode_sent, bytes, name), name);
+}
+
 Result<Recording> read_recording(const fs::path& file) {
   std::error_code code;
   const fs::path path = fs::absolute(file, code);
-  const Result<IsolatedBytes> made =
-      run_isolated(decode_sound, path.string(), file.string(), {.readable = {path}});
-  if (!made) return made.errors();
-  const std::span<const std::byte> bytes = made->bytes();
-  RecordingHeader header{};
-  if (bytes.size() >= sizeof header) std::memcpy(&header, bytes.data(), sizeof header);
-  constexpr auto max_samples = std::uint64_t(max_recording_s * sample_rate);
-  if (header.samples == 0 || header.samples > max_samples || !std::isfinite(header.loudness_lufs) ||
-      bytes.size() != sizeof header + 2 * header.samples * sizeof(float))
-    return error("{}: its reader crashed", file.string());
-  const float* const first = reinterpret_cast<const float*>(bytes.data() + sizeof header);
-  Recording recording;
-  recording.left.assign(first, first + header.samples);
-  recording.right.assign(first + header.samples, first + 2 * header.samples);
-  recording.loudness_lufs = header.loudness_lufs;
+  Result<Recording> recording = taken_from(
+      run_isolated(decode_file, path.string(), file.string(), {.readable = {path}}), file.string());
+  if (recording) recording->file = path;
   return recording;
 }
 

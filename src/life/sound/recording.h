@@ -16,6 +16,7 @@ struct Recording {
   std::vector<float> left,
       right;                   ///< equally long; of a file with one channel, `right` is the same as `left`
   double loudness_lufs = 0.0;  ///< of the whole, EBU R 128
+  std::filesystem::path file;  ///< that it was read from; empty: it came as bytes
 
   /// Seconds.
   double length_s() const { return double(left.size()) / sample_rate; }
@@ -32,6 +33,9 @@ struct Recording {
 /// Files that are larger, and sounds that last longer, are refused.
 inline constexpr std::uint64_t max_recording_bytes = 64u << 20;
 inline constexpr double max_recording_s = 600.0;
+
+/// The same of a file's bytes.
+Result<Recording> decode_recording(const std::string& bytes, const std::string& name);
 
 /// Reads a sound file (WAVE, FLAC, Ogg Vorbis and the like) in a child process. Errors name the file: it is
 /// missing, too large, no sound, empty, silent, or holds samples that are no numbers.

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "life/propagation/site.h"
 #include "life/sound/ears.h"
 #include "life/sound/recording.h"
 #include "life/sound/sound_kind.h"
@@ -56,21 +57,39 @@ inline constexpr double full_scale_db = 100.0;
 /// Level in dB(A) of beds, and of recordings at 1 m, whose `level_db` is 0.
 inline constexpr double recording_db = 60.0;
 
+/// Whether an object of this name is a fountain: "fountain", "fountain 2", "the fountain".
+bool is_fountain(std::string_view name);
+
 /// Beds of a scene that are on.
 std::vector<Bed> beds_of(const scene::Scene& scene);
 
 /// Follows what sounds from moment to moment, for speeds.
 class SceneSounds {
  public:
-  /// Emitters of the scene as it stands, `step_s` after the last call. Vehicles are the objects of traffic,
-  /// whose model's name says whether they are buses; trams roll under each section and have fans on the roof
-  /// of the first. What is hidden is silent.
-  std::vector<Emitter> at(const scene::Scene& scene, double step_s);
+  /// Emitters of the scene as it stands, `step_s` after the last call, for ears at a place: its sound nodes
+  /// and noise sources, vehicles (the model's name says whether they are buses), trams, fountains (objects of
+  /// that name), and of people and trees those that are near. What is hidden is silent. `terrain`: the ground
+  /// that feet tread on; null: it is hard.
+  std::vector<Emitter> at(const scene::Scene& scene, double step_s, const glm::dvec3& ears,
+                          const propagation::Terrain* terrain = nullptr);
 
  private:
+  /// Something as it was at the last call.
+  struct Seen {
+    glm::dvec3 position{0.0};
+    float doors_m = 0.0f;  ///< by which the leaves of a tram's section are open, all together
+    double rings_until_s = -1.0;
+    bool is_at_rest = false;
+  };
   double speed_of(std::uint64_t id, glm::dvec3 position, double step_s);
+  void add_placed(const scene::Scene& scene, double step_s, std::vector<Emitter>& emitters);
+  void add_trams(const scene::Scene& scene, double step_s, std::vector<Emitter>& emitters);
+  void add_people(const scene::Scene& scene, double step_s, const glm::dvec3& ears,
+                  const propagation::Terrain* terrain, std::vector<Emitter>& emitters);
+  void add_trees(const scene::Scene& scene, const glm::dvec3& ears, std::vector<Emitter>& emitters) const;
 
-  std::unordered_map<std::uint64_t, glm::dvec3> last_, now_;
+  std::unordered_map<std::uint64_t, Seen> last_, now_;
+  double time_s_ = 0.0;
 };
 
 }  // namespace parvis::sound

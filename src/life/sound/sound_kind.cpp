@@ -55,6 +55,8 @@ double amplitude_at(double hz, const Octaves& amplitudes) {
 /// table 21.1).
 constexpr Tone bell_partials[]{{0.5, 0.5, 6.0}, {1.0, 0.7, 3.0}, {1.2, 1.0, 2.2}, {1.5, 0.4, 1.4},
                                {2.0, 0.9, 1.2}, {2.5, 0.3, 0.7}, {3.0, 0.4, 0.5}, {4.0, 0.3, 0.35}};
+/// Partials of a tram's gong: those of a free bar (the same, table 2.1).
+constexpr Tone gong_partials[]{{1.0, 0.8, 0.5}, {2.756, 0.6, 0.3}, {5.404, 0.3, 0.15}};
 
 /// Adds a tone whose amplitude and phase go evenly from one value to the other.
 void add_tone(std::span<float> samples, double from, double to, double begin_rad, double end_rad) {
@@ -78,24 +80,48 @@ struct Stretch {
   Octaves from, to;
 };
 
-void add_bell(std::uint64_t seed, const Stretch& stretch, std::span<float> samples) {
-  constexpr double interval_s = 2.4, full_turn = 2.0 * std::numbers::pi;
-  const double note_hz = 330.0 * std::exp2(uniform_of(seed, 0));
-  const auto last = long(std::floor(stretch.end_s / interval_s));
-  for (long strike = std::max(last - 3, 0L); strike <= last; ++strike) {
+/// A bell that is struck at each multiple of an interval.
+struct Bell {
+  double note_hz, interval_s;
+  std::span<const Tone> partials;
+};
+
+void add_bell(const Bell& bell, const Stretch& stretch, std::span<float> samples) {
+  constexpr double full_turn = 2.0 * std::numbers::pi, inaudible = 7.0;  // in decays: -61 dB
+  const auto [note_hz, interval_s, partials] = bell;
+  const auto last = long(std::floor(stretch.end_s / interval_s)),
+             audible = long(std::ceil(inaudible * partials.front().decay_s / interval_s));
+  for (long strike = std::max(last - audible, 0L); strike <= last; ++strike) {
     const double begin_s = stretch.begin_s - double(strike) * interval_s,
                  end_s = stretch.end_s - double(strike) * interval_s;
-    for (const Tone& tone : bell_partials) {
+    for (const Tone& tone : partials) {
       const double hz = note_hz * tone.hz;
       const auto amplitude = [&](double since_s, const Octaves& amplitudes) {
-        constexpr double inaudible_s = 9.0;  // in decays: -78 dB
-        if (since_s <= 0.0 || since_s > inaudible_s * tone.decay_s) return 0.0;
+        if (since_s <= 0.0 || since_s > inaudible * tone.decay_s) return 0.0;
         return tone.amplitude * amplitude_at(hz, amplitudes) * std::exp(-since_s / tone.decay_s) *
                (1.0 - std::exp(-since_s / 0.002));
       };
       add_tone(samples, amplitude(begin_s, stretch.from), amplitude(end_s, stretch.to),
                full_turn * hz * begin_s, full_turn * hz * end_s);
     }
+  }
+}
+
+/// Wheels that stick and slip: tones that come and go.
+void add_squeal(std::uint64_t seed, const Stretch& stretch, std::span<float> samples) {
+  constexpr double slot_s = 0.35;
+  constexpr std::array partials{1.0, 2.03, 3.1};
+  for (std::size_t k = 0; k < partials.size(); ++k) {
+    const double hz = partials[k] * (1700.0 + 900.0 * uniform_of(seed, 0)),
+                 turn = 2.0 * std::numbers::pi * hz;
+    const auto amplitude = [&](double time_s, const Octaves& amplitudes) {
+      const double place = time_s / slot_s, whole = std::floor(place), part = place - whole;
+      const auto loudness = [&](long slot) { return uniform_of(seed + k, slot); };
+      return amplitude_at(hz, amplitudes) *
+             std::lerp(loudness(long(whole)), loudness(long(whole) + 1), part * part * (3.0 - 2.0 * part));
+    };
+    add_tone(samples, amplitude(stretch.begin_s, stretch.from), amplitude(stretch.end_s, stretch.to),
+             turn * stretch.begin_s, turn * stretch.end_s);
   }
 }
 
@@ -172,6 +198,12 @@ Octaves power_db(SoundKind kind, double speed_m_s) {
       return propagation::tram_power_db(speed_m_s);
     case SoundKind::tram_roof:
       return {78, 79, 77, 74, 72, 68, 62, 54};  // air conditioning
+    case SoundKind::tram_doors:
+      return {60, 62, 64, 67, 69, 70, 70, 65};
+    case SoundKind::tram_bell:
+      return {0, 0, 0, 70, 92, 96, 92, 80};
+    case SoundKind::tram_squeal:
+      return {0, 0, 0, 0, 76, 96, 92, 80};
     case SoundKind::fountain:
       return {58, 60, 64, 70, 74, 76, 75, 71};
     case SoundKind::leaves:
@@ -179,7 +211,7 @@ Octaves power_db(SoundKind kind, double speed_m_s) {
     case SoundKind::murmur:
       return speech_db;
     case SoundKind::footsteps:
-      return {62, 64, 66, 65, 62, 58, 52, 44};
+      return footsteps_db(0.0);
     case SoundKind::birds:
       return {0, 0, 0, 0, 20, 70, 80, 66};
     case SoundKind::bell:
@@ -189,6 +221,19 @@ Octaves power_db(SoundKind kind, double speed_m_s) {
       break;  // as loud as the file says
   }
   return {};
+}
+
+Octaves footsteps_db(double ground_factor) {
+  constexpr Octaves stone{62, 64, 66, 65, 62, 58, 52, 44}, gravel{56, 58, 62, 66, 69, 70, 68, 62},
+      lawn{54, 54, 52, 48, 44, 42, 40, 34};
+  using propagation::gravel_factor;
+  Octaves result;
+  for (std::size_t band = 0; band < octaves; ++band)
+    result[band] =
+        ground_factor < gravel_factor
+            ? std::lerp(stone[band], gravel[band], ground_factor / gravel_factor)
+            : std::lerp(gravel[band], lawn[band], (ground_factor - gravel_factor) / (1.0 - gravel_factor));
+  return result;
 }
 
 void add_sound(SoundKind kind, std::uint64_t seed, double begin_s, double end_s, const Octaves& from,
@@ -202,7 +247,11 @@ void add_sound(SoundKind kind, std::uint64_t seed, double begin_s, double end_s,
       case SoundKind::birds:
         return add_bird(seed, stretch, part);
       case SoundKind::bell:
-        return add_bell(seed, stretch, part);
+        return add_bell({330.0 * std::exp2(uniform_of(seed, 0)), 2.4, bell_partials}, stretch, part);
+      case SoundKind::tram_bell:
+        return add_bell({1100.0 + 200.0 * uniform_of(seed, 0), 0.45, gong_partials}, stretch, part);
+      case SoundKind::tram_squeal:
+        return add_squeal(seed, stretch, part);
       case SoundKind::recording:
       case SoundKind::bed:
         return;

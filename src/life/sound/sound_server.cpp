@@ -10,10 +10,12 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/content_hash.h"
+
 namespace parvis::sound {
 namespace {
 
-constexpr std::size_t sound_arguments = 14;
+constexpr std::size_t sound_arguments = 14;  // without seed and file
 constexpr double max_level_db = 140.0, max_delay_s = 10.0;
 
 /// Addresses of a host and port; null where there are none.
@@ -91,6 +93,84 @@ int Datagrams::port() const {
   return ntohs(own.sin_port);
 }
 
+std::shared_ptr<const Recording> SentRecordings::find(const std::string& file, double now_s) {
+  std::erase_if(files_, [&](const auto& it) {
+    return now_s - it.second.used_s > forgotten_s && !it.second.read.valid();
+  });
+  if (!files_.contains(file) && files_.size() >= max_files) return nullptr;
+  File& sent = files_[file];
+  sent.used_s = now_s;
+  if (!sent.read.valid() || sent.read.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    return sent.recording;
+  Result<Recording> read = sent.read.get();
+  double total_s = read ? read->length_s() : 0.0;
+  for (const auto& [name, other] : files_) total_s += other.recording ? other.recording->length_s() : 0.0;
+  if (read && total_s <= max_total_s) {
+    sent.recording = std::make_shared<const Recording>(*std::move(read));
+  } else {
+    sent.is_bad = true;
+    message_ = read ? fmt::format("the client's recordings last longer than {:.0f} s; some are not heard",
+                                  max_total_s)
+                    : to_string(read.errors());
+  }
+  return sent.recording;
+}
+
+Status SentRecordings::take(const OscMessage& part) {
+  const auto number = [&](std::size_t i) { return std::size_t(std::clamp(part.numbers[i], 0.0, 1e9)); };
+  const auto found = part.numbers.size() == 3 ? files_.find(part.texts[0]) : files_.end();
+  if (found == files_.end()) return error("/parvis/part: nobody has asked for it");
+  File& file = found->second;
+  const std::size_t index = number(1), size = number(2), parts = (size + part_bytes - 1) / part_bytes;
+  if (size == 0 || size > max_recording_bytes || index >= parts ||
+      part.blob.size() != std::min(part_bytes, size - index * part_bytes) ||
+      (!file.has.empty() && size != file.bytes.size()))
+    return error("/parvis/part: part {} of {} bytes has {}", index, size, part.blob.size());
+  if (file.recording || file.is_bad || file.read.valid()) return Ok{};  // it has come twice
+  std::size_t coming = size;
+  for (const auto& [name, other] : files_) coming += other.bytes.size();
+  if (file.has.empty() && coming > max_bytes)
+    return error("/parvis/part: recordings of more than {} MB come at a time", max_bytes >> 20);
+  if (file.has.empty()) file.bytes.assign(size, '\0'), file.has.assign(parts, false), file.missing = parts;
+  if (file.has[index]) return Ok{};
+  std::memcpy(file.bytes.data() + index * part_bytes, part.blob.data(), part.blob.size());
+  file.has[index] = true;
+  if (--file.missing > 0) return Ok{};
+  file.has.clear();
+  if (name_of_recording(file.bytes) != found->first) {  // parts of different files: from the begin
+    file.missing = 1, file.bytes.clear();
+    return error("/parvis/part: the bytes are not those of the recording");
+  }
+  file.read = std::async(std::launch::async, [bytes = std::exchange(file.bytes, {})] {
+    return decode_recording(bytes, "the client's recording");
+  });
+  return Ok{};
+}
+
+std::vector<std::string> SentRecordings::wanted(double now_s) {
+  std::vector<std::string> messages;
+  for (const auto& [name, file] : files_) {
+    constexpr double still_used_s = 2.0;
+    if (file.missing == 0 || file.is_bad || now_s - file.used_s > still_used_s) continue;
+    const auto first = std::size_t(std::ranges::find(file.has, false) - file.has.begin());
+    const OscMessage want{
+        "/parvis/want", {0.0, double(first), file.has.empty() ? 1.0 : double(parts_wanted)}, {name, "", ""}};
+    if (Result<std::string> packet = liblo.call(&LibloFunctions::encode, want))
+      messages.push_back(*std::move(packet));
+  }
+  return messages;
+}
+
+Status ServedSounds::take_bed(const OscMessage& message, double now_s) {
+  if (message.numbers.size() != 2 || message.texts[0].empty())
+    return error("/parvis/bed with {} arguments: expected a file and a gain", message.numbers.size());
+  if (beds_.size() >= max_beds && !beds_.contains(message.texts[0]))
+    return error("/parvis/bed: more than {} beds", max_beds);
+  constexpr double max_gain = 100.0;
+  beds_[message.texts[0]] = {std::clamp(message.numbers[1], 0.0, max_gain), now_s};
+  return Ok{};
+}
+
 Result<std::string> ServedSounds::take(std::string_view packet, double now_s) {
   const Result<OscMessage> read = liblo.call(&LibloFunctions::decode, packet);
   if (!read) return read.errors();
@@ -106,19 +186,27 @@ Result<std::string> ServedSounds::take(std::string_view packet, double now_s) {
     sounds_.erase(id());
     return std::string();
   }
-  if (read->address != "/parvis/sound" || numbers.size() != sound_arguments)
+  if (const bool is_part = read->address == "/parvis/part"; is_part || read->address == "/parvis/bed") {
+    const Status status = is_part ? recordings_.take(*read) : take_bed(*read, now_s);
+    return status ? Result<std::string>(std::string()) : status.errors();
+  }
+  if (read->address != "/parvis/sound" || numbers.size() < sound_arguments ||
+      numbers.size() > sound_arguments + 2)
     return error(
-        "{} with {} arguments: expected /parvis/sound with {}, /parvis/silent, /parvis/mute or "
-        "/parvis/ping",
-        read->address, numbers.size(), sound_arguments);
+        "{} with {} arguments: expected /parvis/sound with {} to {}, /parvis/bed, /parvis/part, "
+        "/parvis/silent, /parvis/mute or /parvis/ping",
+        read->address, numbers.size(), sound_arguments, sound_arguments + 2);
   const SoundKind kind = sound_kind(read->texts[1]);
-  if (std::size_t(kind) >= synthetic_kinds)
-    return error("/parvis/sound: \"{}\" is no kind of sound", read->texts[1]);
+  const std::string file = numbers.size() > sound_arguments + 1 ? read->texts[sound_arguments + 1] : "";
+  if (std::size_t(kind) >= synthetic_kinds && (kind != SoundKind::recording || file.empty()))
+    return error("/parvis/sound: \"{}\" is no kind of sound that can be sent so", read->texts[1]);
   if (sounds_.size() >= max_sounds && !sounds_.contains(id()))
     return error("/parvis/sound: more than {} sounds", max_sounds);
   Served served;
-  served.told_s = now_s;
+  served.told_s = now_s, served.file = file;
   served.sound.id = id(), served.sound.kind = kind;
+  served.sound.seed =
+      numbers.size() > sound_arguments ? std::uint64_t(std::clamp(numbers[sound_arguments], 0.0, 1e9)) : id();
   const glm::dvec3 direction(numbers[2], numbers[3], numbers[4]);
   const double length = glm::length(direction);
   if (!(length > 1e-6 && length < 1e6)) return error("/parvis/sound: the direction has no length");
@@ -135,20 +223,45 @@ std::vector<HeardSound> ServedSounds::heard(double now_s) {
   std::erase_if(sounds_, [&](const auto& it) { return now_s - it.second.told_s > forgotten_s; });
   std::vector<HeardSound> result;
   for (const auto& [id, served] : sounds_) {
-    result.push_back(served.sound);
-    result.back().emitted_s = now_s - served.sound.emitted_s;
+    HeardSound sound = served.sound;
+    if (!served.file.empty() && !(sound.recording = recordings_.find(served.file, now_s))) continue;
+    sound.emitted_s = now_s - served.sound.emitted_s;
+    result.push_back(std::move(sound));
   }
   return result;
 }
 
-OscMessage message_of(const HeardSound& sound, double time_s) {
-  OscMessage message{"/parvis/sound", {double(sound.id % 16'000'000)}, {""}};
+std::vector<Bed> ServedSounds::beds(double now_s) {
+  std::erase_if(beds_, [&](const auto& it) { return now_s - it.second.told_s > forgotten_s; });
+  std::vector<Bed> result;
+  for (const auto& [file, bed] : beds_)
+    if (const auto recording = recordings_.find(file, now_s)) result.push_back({recording, float(bed.gain)});
+  return result;
+}
+
+OscMessage message_of(const HeardSound& sound, double time_s, const std::string& file) {
+  constexpr std::uint64_t whole_floats = 16'000'000;
+  OscMessage message{"/parvis/sound", {double(sound.id % whole_floats)}, {""}};
   const auto add = [&](double number) { message.numbers.push_back(number), message.texts.emplace_back(); };
   message.numbers.push_back(0.0), message.texts.emplace_back(sound_names[std::size_t(sound.kind)]);
   for (int axis = 0; axis < 3; ++axis) add(double(sound.direction[axis]));
   for (const double energy : sound.energy) add(propagation::level(energy) + full_scale_db);
-  add(time_s - sound.emitted_s);
+  add(time_s - sound.emitted_s), add(double(sound.seed % whole_floats));
+  if (!file.empty()) message.numbers.push_back(0.0), message.texts.push_back(file);
   return message;
+}
+
+std::string name_of_recording(std::string_view bytes) {
+  ContentHash hash;
+  hash.add_text(bytes);
+  return fmt::format("{:016x}", hash.value());
+}
+
+OscMessage part_of(const std::string& name, std::string_view bytes, std::size_t index) {
+  return {"/parvis/part",
+          {0.0, double(index), double(bytes.size())},
+          {name, "", ""},
+          std::string(bytes.substr(std::min(index * part_bytes, bytes.size()), part_bytes))};
 }
 
 }  // namespace parvis::sound

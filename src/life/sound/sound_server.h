@@ -1,14 +1,20 @@
 // The sound server: a process of its own, on this machine or another, that plays what a client says it hears,
 // in Open Sound Control over UDP.
 //
-// /parvis/sound ID KIND X Y Z L63 L125 ... L8000 DELAY: a sound as it reaches the listener: direction (right,
-// ahead, up), levels in dB by octave, seconds of travel. It is to be said again within two seconds, else it
-// fades away: so a client may vanish and come back.
+// /parvis/sound ID KIND X Y Z L63 L125 ... L8000 DELAY [SEED [FILE]]: a sound as it reaches the listener:
+// direction (right, ahead, up), levels in dB by octave, seconds of travel. It is to be said again within two
+// seconds, else it fades away: so a client may vanish and come back. Sounds of one seed have the same events.
+// /parvis/bed FILE GAIN: likewise, a recording that is heard everywhere.
 // /parvis/silent ID; /parvis/mute 0 or 1; /parvis/ping, which is answered with /parvis/pong.
+// A recording's FILE is the hash of its bytes. The server asks for those that it lacks with
+// /parvis/want FILE FIRST COUNT, and the client sends each part, of `part_bytes`, with
+// /parvis/part FILE INDEX BYTES_OF_ALL BLOB: parts that are lost are asked for again.
 #pragma once
 
+#include <future>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "life/sound/liblo_module.h"
@@ -44,10 +50,43 @@ class Datagrams {
   std::string buffer_;  ///< of packets that come
 };
 
+/// Bytes of a recording in one message, and how many parts a server asks for at a time.
+inline constexpr std::size_t part_bytes = 1024, parts_wanted = 64;
+
+/// Recordings that a client sends in parts.
+class SentRecordings {
+ public:
+  /// Files at a time, bytes of those that come, and seconds of all together; further ones are refused.
+  static constexpr std::size_t max_files = 16, max_bytes = 256u << 20;
+  static constexpr double max_total_s = 1200.0, forgotten_s = 60.0;
+
+  /// The recording, where all of it has come; else it is asked for from now on.
+  std::shared_ptr<const Recording> find(const std::string& file, double now_s);
+  /// Takes a part. Errors: nobody asked for it, or it does not fit.
+  Status take(const OscMessage& part);
+  /// Messages to send to the client now, some times in a second.
+  std::vector<std::string> wanted(double now_s);
+  /// A message about a recording that could not be read, once; empty for none.
+  std::string take_message() { return std::exchange(message_, {}); }
+
+ private:
+  struct File {
+    double used_s = 0.0;
+    std::string bytes;
+    std::vector<bool> has;    ///< parts; empty: none has come
+    std::size_t missing = 1;  ///< parts
+    std::future<Result<Recording>> read;
+    std::shared_ptr<const Recording> recording;
+    bool is_bad = false;
+  };
+  std::map<std::string, File> files_;
+  std::string message_;
+};
+
 /// The state of a server, from packets; the network is elsewhere.
 class ServedSounds {
  public:
-  static constexpr std::size_t max_sounds = 10'000;
+  static constexpr std::size_t max_sounds = 10'000, max_beds = 8;
   static constexpr double forgotten_s = 2.0;
 
   /// Takes a packet that came at a time of the server's clock. Returns the packet to answer with, or an empty
@@ -55,6 +94,10 @@ class ServedSounds {
   Result<std::string> take(std::string_view packet, double now_s);
   /// The sounds that are heard now; those that were not renewed are dropped.
   std::vector<HeardSound> heard(double now_s);
+  /// The beds that are heard now, likewise.
+  std::vector<Bed> beds(double now_s);
+  /// Recordings that the client sends.
+  SentRecordings& recordings() { return recordings_; }
   /// Whether the client has muted the server.
   bool is_muted() const { return is_muted_; }
 
@@ -62,12 +105,25 @@ class ServedSounds {
   struct Served {
     HeardSound sound;
     double told_s = 0.0;
+    std::string file;  ///< of a recording
   };
+  struct ServedBed {
+    double gain = 0.0, told_s = 0.0;
+  };
+  Status take_bed(const OscMessage& message, double now_s);
+
   std::map<std::uint64_t, Served> sounds_;
+  std::map<std::string, ServedBed> beds_;  ///< by file
+  SentRecordings recordings_;
   bool is_muted_ = false;
 };
 
-/// The message that says a sound; `time_s` is that of `HeardSound::emitted_s`.
-OscMessage message_of(const HeardSound& sound, double time_s);
+/// The message that says a sound; `time_s` is that of `HeardSound::emitted_s`. `file`: of a recording.
+OscMessage message_of(const HeardSound& sound, double time_s, const std::string& file = {});
+
+/// The name by which recordings are sent.
+std::string name_of_recording(std::string_view bytes);
+/// A part of a recording's bytes.
+OscMessage part_of(const std::string& name, std::string_view bytes, std::size_t index);
 
 }  // namespace parvis::sound

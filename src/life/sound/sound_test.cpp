@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <complex>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <thread>
@@ -13,6 +15,7 @@
 #include "life/sound/playback.h"
 #include "life/sound/sound_server.h"
 #include "life/sound/wave_file.h"
+#include "life/tram/tram_process.h"
 #include "room_list.h"
 #include "scene/script/test_script.h"
 
@@ -77,6 +80,31 @@ TEST(Mixer, KeepsTheEnergyOfManySourcesAtAMicrophone) {
   for (std::size_t band = 0; band < octaves; ++band)
     EXPECT_NEAR(propagation::level(band_energy(left, band) / 5e-3), 0.0, 0.1) << band;
   EXPECT_EQ(left, right);
+}
+
+TEST(Sounds, TonesAreWhereTheirKindsHaveThem) {
+  Octaves one;
+  one.fill(1.0);
+  for (const auto& [kind, low, high] : {std::tuple(SoundKind::tram_bell, 1000.0, 4000.0),
+                                        std::tuple(SoundKind::tram_squeal, 1600.0, 8500.0)}) {
+    std::vector<float> samples(48'000, 0.0f);
+    add_sound(kind, 5, 3.0, 4.0, one, one, samples);
+    double loudest_hz = 0.0, loudest = 0.0;
+    for (double hz = 200.0; hz < 9000.0; hz += 5.0) {
+      std::complex<double> sum = 0.0;
+      for (std::size_t i = 0; i < samples.size(); ++i)
+        sum += double(samples[i]) * std::polar(1.0, -2.0 * std::numbers::pi * hz * double(i) / sample_rate);
+      if (std::abs(sum) > loudest) loudest = std::abs(sum), loudest_hz = hz;
+    }
+    EXPECT_GT(loudest_hz, low) << sound_names[std::size_t(kind)];
+    EXPECT_LT(loudest_hz, high) << sound_names[std::size_t(kind)];
+  }
+}
+
+TEST(Sounds, FeetAreLouderOnGravelAndSofterOnALawn) {
+  const auto loud = [](double factor) { return propagation::a_weighted(footsteps_db(factor)); };
+  EXPECT_GT(loud(propagation::gravel_factor), loud(0.0) + 3.0);
+  EXPECT_LT(loud(1.0), loud(0.0) - 10.0);
 }
 
 TEST(Mixer, TenThousandSoundsInOnePointAndNoneAreMixed) {
@@ -197,6 +225,67 @@ TEST(Listening, HearsWhatTheTransferSays) {
   const Octaves expected = listening.level_at(fountain, {0, 0, 1.7});
   for (std::size_t band = 0; band < octaves; ++band)
     EXPECT_NEAR(propagation::level(band_energy(left, band)) + full_scale_db, expected[band], 0.1) << band;
+}
+
+/// A box with all its faces.
+scene::Object box(glm::vec3 low, glm::vec3 high) {
+  scene::Model model;
+  model.materials.emplace_back();
+  model.nodes.emplace_back();
+  scene::Part part;
+  part.material = 0, part.node = 0;
+  for (int i = 0; i < 8; ++i)
+    part.mesh.positions.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+  part.mesh.indices = {0, 1, 5, 0, 5, 4, 3, 2, 6, 3, 6, 7, 2, 0, 4, 2, 4, 6,
+                       1, 3, 7, 1, 7, 5, 4, 5, 7, 4, 7, 6, 0, 2, 3, 0, 3, 1};
+  part.mesh.normals.assign(8, {0, 0, 1});
+  part.mesh.uvs.assign(8, {0, 0});
+  model.parts.push_back(std::move(part));
+  scene::Object object;
+  object.name = "box", object.model = std::make_shared<const scene::Model>(std::move(model));
+  return object;
+}
+
+TEST(Listening, AWallReflectsFromItsOwnSideAndLater) {
+  scene::Scene scene;
+  scene.objects = {box({20, -30, 0}, {30, 30, 15})};
+  Listening listening(scene, Output::headphones);
+  PlacedSound bell;
+  bell.kind = SoundKind::bell, bell.position = {-10, 0, 2};
+  scene.data<scene::ItemsOf<PlacedSound>>().add(bell, 0);
+  Camera ears;  // looks down: right is east
+  ears.world_from_camera[3] = {0, 0, 2, 1};
+  const std::vector<HeardSound> heard = listening.heard(scene, ears, 5.0, 0.02);
+  ASSERT_EQ(heard.size(), 2u) << "bells have no late field";
+  const HeardSound& echo = heard[0].direction.x > 0.0f ? heard[0] : heard[1];
+  const HeardSound& direct = heard[0].direction.x > 0.0f ? heard[1] : heard[0];
+  EXPECT_NEAR(echo.direction.x, 1.0f, 1e-3f);
+  EXPECT_NEAR(direct.direction.x, -1.0f, 1e-3f);
+  EXPECT_NEAR(direct.emitted_s, 5.0 - 10.0 / 340.0, 1e-6);
+  EXPECT_NEAR(echo.emitted_s, 5.0 - 50.0 / 340.0, 1e-6);
+  EXPECT_LT(echo.energy[4], direct.energy[4]);
+  EXPECT_EQ(echo.seed, direct.seed) << "the same strikes";
+  EXPECT_NE(echo.id, direct.id);
+}
+
+TEST(Listening, HearsTheStreetFromAnArcade) {
+  scene::Scene open, closed;
+  open.objects = {box({-40, 0, 3.5f}, {40, 4, 12}), box({-40, 4, 0}, {40, 12, 12})};
+  closed.objects = {box({-40, 0, 0}, {40, 12, 12})};
+  for (scene::Scene* scene : {&open, &closed}) scene->objects.push_back(box({-60, -40, -1}, {60, 40, 0}));
+  Listening in_arcade(open, Output::microphone), in_house(closed, Output::microphone);
+  const propagation::Terrain& terrain = in_arcade.site().terrain();
+  EXPECT_NEAR(terrain.ceiling_z({0.5, 2.5}).value_or(0.0), 3.5, 1e-3);
+  EXPECT_FALSE(terrain.ceiling_z({0.5, 8.5})) << "in the house";
+  EXPECT_FALSE(in_house.site().terrain().ceiling_z({0.5, 2.5}));
+  EXPECT_TRUE(std::ranges::any_of(in_arcade.site().walls(),
+                                  [](const propagation::Wall& wall) { return wall.bottom > 3.0; }));
+  const Emitter car{1, SoundKind::car, {3, -10, 0.3}, power_db(SoundKind::car, 10.0)};
+  const double arcade_db = propagation::a_weighted(in_arcade.level_at(car, {0, 2, 1.7})),
+               before_db = propagation::a_weighted(in_arcade.level_at(car, {0, -1, 1.7})),
+               house_db = propagation::a_weighted(in_house.level_at(car, {0, 2, 1.7}));
+  EXPECT_NEAR(arcade_db, before_db, 4.0);
+  EXPECT_GT(arcade_db, house_db + 15.0);
 }
 
 /// A WAVE file of the room's own.
@@ -340,6 +429,12 @@ TEST(Devices, FilesHoldWhatWasPlayedAndTheNullDeviceTakesTime) {
   ASSERT_TRUE(played) << to_string(played.errors());
   EXPECT_GT(mean_square(played->left), 2.0 * mean_square(played->right));
   EXPECT_FALSE(open_device("/proc/none/played.wav", 1));
+  {
+    const Result<std::unique_ptr<Device>> room = open_device(file + "@5.1", 1);
+    ASSERT_TRUE(room);
+    ASSERT_TRUE((*room)->play({&stream, 1}, {none, none}));
+  }
+  EXPECT_EQ(std::filesystem::file_size(file), 68u + 12u * device_moment) << "six channels, with their names";
 }
 
 TEST(Devices, OpenAlHearsTheLeftOnTheLeft) {
@@ -387,6 +482,60 @@ TEST(Server, PlaysSoundsUntilTheClientIsGone) {
       served.take(*liblo.call(&LibloFunctions::encode, OscMessage{"/parvis/ping", {}, {}}), 26.0);
   ASSERT_TRUE(pong);
   EXPECT_TRUE(pong->starts_with("/parvis/pong"));
+}
+
+/// Encoded, taken by the server.
+Result<std::string> given_to(ServedSounds& served, const OscMessage& message, double now_s) {
+  return served.take(*liblo.call(&LibloFunctions::encode, message), now_s);
+}
+
+TEST(Server, AsksForRecordingsThatItLacksAndPlaysThem) {
+  const std::string file = tone_file(24'000, 0.3f), name = name_of_recording(file);
+  HeardSound sound;
+  sound.id = 3, sound.kind = SoundKind::recording, sound.energy.fill(1e-3);
+  ServedSounds served;
+  const auto say = [&](double now_s) {
+    ASSERT_TRUE(given_to(served, message_of(sound, 0.0, name), now_s));
+    ASSERT_TRUE(given_to(served, {"/parvis/bed", {0.0, 0.5}, {name, ""}}, now_s));
+  };
+  double now_s = 0.0;
+  int lost = 0;
+  EXPECT_FALSE(given_to(served, part_of(name, file, 0), now_s)) << "nobody asked";
+  for (int round = 0; round < 200 && served.heard(now_s).empty(); ++round, now_s += 0.05) {
+    say(now_s);
+    for (const std::string& packet : served.recordings().wanted(now_s)) {
+      const Result<OscMessage> want = liblo.call(&LibloFunctions::decode, packet);
+      ASSERT_TRUE(want && want->address == "/parvis/want" && want->texts[0] == name);
+      for (std::size_t i = std::size_t(want->numbers[1]);
+           i < std::size_t(want->numbers[1] + want->numbers[2]) && i * part_bytes < file.size(); ++i)
+        if (++lost % 7 != 0) {
+          ASSERT_TRUE(given_to(served, part_of(name, file, i), now_s));
+        }
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ASSERT_EQ(served.heard(now_s).size(), 1u) << "each seventh part was lost, and asked for again";
+  ASSERT_EQ(served.beds(now_s).size(), 1u);
+  EXPECT_EQ(served.beds(now_s)[0].gain, 0.5f);
+  EXPECT_NEAR(served.heard(now_s)[0].recording->length_s(), 0.45, 0.06);
+  EXPECT_TRUE(served.recordings().wanted(now_s).empty());
+  EXPECT_TRUE(served.beds(now_s + 3.0).empty()) << "the client has vanished";
+
+  // What is no sound, or does not fit, is refused and said.
+  const std::string text(3000, 'x'), bad = name_of_recording(text);
+  ASSERT_TRUE(given_to(served, {"/parvis/bed", {0.0, 0.5}, {bad, ""}}, now_s));
+  EXPECT_TRUE(served.beds(now_s).size() <= 1u);
+  EXPECT_FALSE(given_to(served, part_of(bad, text.substr(0, 100), 5), now_s));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(given_to(served, part_of(bad, text, i), now_s));
+  std::string message;
+  for (int i = 0; i < 500 && message.empty(); ++i) {
+    ASSERT_TRUE(given_to(served, {"/parvis/bed", {0.0, 0.5}, {bad, ""}}, now_s));
+    served.beds(now_s), message = served.recordings().take_message();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_NE(message.find("expected WAVE"), std::string::npos) << message;
+  EXPECT_TRUE(served.recordings().wanted(now_s).empty()) << "it is not asked for again";
+  EXPECT_FALSE(given_to(served, message_of(sound, 0.0), now_s)) << "a recording without a file";
 }
 
 TEST(Server, PacketsGoBothWaysOverLoopback) {
@@ -443,12 +592,45 @@ TEST(LateField, OfASquareIsLouderAndLongerThanNothingAndThanAWiderOne) {
   EXPECT_NEAR(field.advance(small, {}, small.decay_s[4])[4] / loud, std::exp(-1.0), 1e-6);
 }
 
+/// An endless arcade 4 m deep before a house, as a terrain.
+class Arcade final : public propagation::Terrain {
+ public:
+  double ground_z(glm::dvec2) const override { return 0.0; }
+  double ground_factor(glm::dvec2) const override { return 0.0; }
+  std::optional<double> roof_z(glm::dvec2 p) const override {
+    return p.y >= 0.0 ? std::optional(12.0) : std::nullopt;
+  }
+  std::optional<double> ceiling_z(glm::dvec2 p) const override {
+    return p.y >= 0.0 && p.y < 4.0 ? std::optional(height_m) : std::nullopt;
+  }
+  void add_breaks(glm::dvec2, glm::dvec2, std::vector<double>&) const override {}
+  double height_m = 3.5;
+};
+
+TEST(LateField, OfAnArcadeIsThatBelowItsCeiling) {
+  Octaves absorption;
+  absorption.fill(propagation::facade_absorption);
+  const std::vector<propagation::Wall> walls{{{-60, 0}, {60, 0}, 12, 12, absorption, 3.5},
+                                             {{-60, 4}, {60, 4}, 12, 12, absorption}};
+  Arcade low, high;
+  high.height_m = 7.0;
+  const propagation::Site narrow(low, walls), tall(high, walls);
+  const Octaves air = propagation::absorption_db_per_m({});
+  const Enclosure below = covered_about(narrow, {0, 2, 1.7}, 1, air);
+  EXPECT_GT(below.energy[4], 2.0 * covered_about(tall, {0, 2, 1.7}, 1, air).energy[4]);
+  EXPECT_GT(below.decay_s[4], 0.01);
+  EXPECT_LT(below.decay_s[4], 0.2) << "one side is open";
+  EXPECT_GT(below.reach_m, 2.0);
+  EXPECT_EQ(covered_about(narrow, {0, -5, 1.7}, 1, air).energy[4], 0.0) << "under the sky";
+}
+
 class SoundNodeTest : public scene::ScriptTest<> {
  protected:
   SoundNodeTest()
       : ScriptTest([] {
           Registries registries;
-          script::register_room(registries), sound::register_room(registries);
+          script::register_room(registries), sound::register_room(registries),
+              tram::register_room(registries);
           return registries;
         }()) {}
 };
@@ -457,12 +639,67 @@ TEST_F(SoundNodeTest, NodesBecomeEmitters) {
   const scene::Scene scene = scene_of(
       "group(position=\"5 0 0\") {\n  sound(kind=\"fountain\", position=\"1 2 0.5\", level_db=3)\n}\n"
       "sound(kind=\"bell\", on=0)\nsound(kind=\"car\", follows=\"nobody\")\n");
-  const std::vector<Emitter> emitters = SceneSounds().at(scene, 0.02);
+  const std::vector<Emitter> emitters = SceneSounds().at(scene, 0.02, glm::dvec3(0.0));
   ASSERT_EQ(emitters.size(), 1u);
   EXPECT_NEAR(emitters[0].position.x, 6.0, 1e-6);
   EXPECT_NEAR(emitters[0].power_db[4], power_db(SoundKind::fountain, 0.0)[4] + 3.0, 1e-9);
   EXPECT_TRUE(holds(errors_of("sound(kind=\"trumpet\")\n"), "scene.xp:1:"));
   EXPECT_TRUE(holds(errors_of("sound(kind=\"recording\")\n"), "needs a file="));
+}
+
+TEST_F(SoundNodeTest, ATramRingsItsDoorsMoveAndItSquealsInTightCurves) {
+  auto loaded = load(
+      "tram(name=\"t\", path=\"-130 0, 30 0, 30 120\", radius=22, headway_s=200) {\n"
+      "  tramStop(position=\"-60 -3 0\", dwell_s=12)\n}\n");
+  ASSERT_TRUE(loaded) << to_string(loaded.errors());
+  scene::Scene& scene = loaded->scene;
+  tram::TramProcess process;
+  action::SharedByProcesses shared;
+  process.begin(scene, shared);
+  SceneSounds sounds;
+  std::map<SoundKind, std::pair<double, double>> heard_s;  // first and last
+  std::map<SoundKind, glm::dvec3> first_at;
+  const double step_s = action::step_s;
+  for (double time_s = 0.0; time_s < 60.0; time_s += step_s) {
+    process.step(scene);
+    process.present(scene, 0.0);
+    for (const Emitter& it : sounds.at(scene, step_s, glm::dvec3(0.0))) {
+      const bool is_new = heard_s.try_emplace(it.kind, time_s, time_s).second;
+      heard_s[it.kind].second = time_s;
+      if (is_new) first_at[it.kind] = it.position;
+    }
+  }
+  ASSERT_TRUE(heard_s.contains(SoundKind::tram_doors));
+  ASSERT_TRUE(heard_s.contains(SoundKind::tram_bell));
+  ASSERT_TRUE(heard_s.contains(SoundKind::tram_squeal));
+  EXPECT_NEAR(heard_s[SoundKind::tram_doors].second - heard_s[SoundKind::tram_doors].first, 12.0, 1.0);
+  EXPECT_NEAR(heard_s[SoundKind::tram_bell].first, heard_s[SoundKind::tram_doors].second, 2.0);
+  EXPECT_NEAR(first_at[SoundKind::tram_squeal].x, 15.0, 25.0) << "where the curve begins";
+  EXPECT_LT(heard_s[SoundKind::tram_squeal].second, 58.0) << "the end of the line is straight";
+}
+
+TEST_F(SoundNodeTest, PeopleTreesAndFountainsSoundByThemselves) {
+  scene::Scene scene;
+  const auto add = [&](const std::string& name, glm::vec3 place) {
+    scene::Object object;
+    object.name = name, object.model = std::make_shared<const scene::Model>();
+    object.world_from_model[3] = glm::vec4(place, 1.0f);
+    object.is_dynamic = name.starts_with("person");
+    scene.objects.push_back(std::move(object));
+  };
+  add("fountain", {5, 0, 0}), add("fountain bench", {60, 0, 0});
+  for (int i = 1; i <= 6; ++i) add("person " + std::to_string(i), {0, float(i % 2), 0});
+  add("person 7", {500, 0, 0});
+  scene.objects.back().is_visible = true;
+  SceneSounds sounds;
+  sounds.at(scene, 0.02, glm::dvec3(0.0));
+  scene.objects[2].world_from_model[3].x += 0.03f;  // 1.5 m/s
+  const std::vector<Emitter> emitters = sounds.at(scene, 0.02, glm::dvec3(0.0));
+  const auto count = [&](SoundKind kind) { return std::ranges::count(emitters, kind, &Emitter::kind); };
+  EXPECT_EQ(count(SoundKind::fountain), 1) << "a bench of that name has no water";
+  EXPECT_EQ(count(SoundKind::footsteps), 1) << "one walks";
+  EXPECT_GE(count(SoundKind::murmur), 1);
+  EXPECT_LE(count(SoundKind::murmur), 6);
 }
 
 }  // namespace

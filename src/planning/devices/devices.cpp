@@ -14,8 +14,8 @@ constexpr std::size_t max_reported = 20;  // of messages that were refused
 
 /// The use of a button; kind none: the text is no such.
 ButtonUse use_of(const std::string& text) {
-  const std::string first = text.substr(0, text.find(' ')),
-                    rest = first.size() < text.size() ? text.substr(first.size() + 1) : "";
+  const std::string first(text.begin(), std::ranges::find(text, ' ')),
+      rest = first.size() < text.size() ? text.substr(first.size() + 1) : "";
   using Kind = ButtonUse::Kind;
   if (rest.empty()) return {first == "action" ? Kind::action : first == "menu" ? Kind::menu : Kind::none, ""};
   const bool is_view = rest == "plan" || rest == "street" || rest == "balcony";

@@ -16,8 +16,15 @@ std::string level_columns(const NoiseLevels& it) {
   return fmt::format("{:.1f},{:.1f},{:.1f},{:.1f}", it.lday, it.levening, it.lnight, it.lden);
 }
 
+/// The end of a level's name: with trams it is indicative.
+std::string_view mark_of(const NoiseMap& map) { return map.sources.has_trams ? "_indicative" : ""; }
+
+std::string level_names(const NoiseMap& map) {
+  return fmt::format("lday_db{0},levening_db{0},lnight_db{0},lden_db{0}\n", mark_of(map));
+}
+
 std::string map_table(const NoiseMap& map) {
-  std::string table = "x_m,y_m,z_m,lday_db,levening_db,lnight_db,lden_db\n";
+  std::string table = "x_m,y_m,z_m," + level_names(map);
   for (const int receiver : map.receiver_of_cell) {
     if (receiver < 0) continue;
     const propagation::Place& at = map.receivers[std::size_t(receiver)].place;
@@ -28,7 +35,7 @@ std::string map_table(const NoiseMap& map) {
 }
 
 std::string facade_rows(const NoiseMap& map) {
-  std::string table = "x_m,y_m,z_m,floor,facing_x,facing_y,lday_db,levening_db,lnight_db,lden_db\n";
+  std::string table = "x_m,y_m,z_m,floor,facing_x,facing_y," + level_names(map);
   bool has_any = false;
   for (std::size_t i = 0; i < map.receivers.size(); ++i) {
     const Receiver& it = map.receivers[i];
@@ -44,7 +51,9 @@ Result<std::string> raster_of(const NoiseMap& map, const scene::Scene& scene) {
   scene::MapRaster raster{.columns = map.columns, .rows = map.rows, .cell_m = map.cell_m};
   raster.corner = glm::dvec2(scene.origin) + map.corner + glm::dvec2(0.0, map.rows * map.cell_m);
   raster.map = scene.map;
-  raster.bands = {{"Lden dB(A)", {}}, {"Lday dB(A)", {}}, {"Levening dB(A)", {}}, {"Lnight dB(A)", {}}};
+  for (const char* level : {"Lden", "Lday", "Levening", "Lnight"})
+    raster.bands.push_back(
+        {fmt::format("{} dB(A){}", level, map.sources.has_trams ? ", indicative" : ""), {}});
   for (int row = map.rows; row-- > 0;)
     for (int column = 0; column < map.columns; ++column) {
       const std::optional<NoiseLevels> here = levels_at(map, column, row);
@@ -87,7 +96,9 @@ Status write_difference(const std::filesystem::path& prefix, const NoiseMap& map
     const std::optional<NoiseLevels> now = levels_at(map, column, row), then = levels_at(before, column, row);
     return now && then ? std::optional(now->lden - then->lden) : std::nullopt;
   };
-  std::string table = "x_m,y_m,lden_before_db,lden_db,difference_db\n";
+  const bool has_trams = map.sources.has_trams || before.sources.has_trams;
+  std::string table = fmt::format("x_m,y_m,lden_before_db{},lden_db{},difference_db{}\n", mark_of(before),
+                                  mark_of(map), has_trams ? "_indicative" : "");
   for (int row = 0; row < map.rows; ++row)
     for (int column = 0; column < map.columns; ++column)
       if (const std::optional<double> here = difference(column, row)) {
@@ -96,7 +107,10 @@ Status write_difference(const std::filesystem::path& prefix, const NoiseMap& map
                              levels_at(before, column, row)->lden, levels_at(map, column, row)->lden, *here);
       }
   const Result<std::string> picture =
-      encode_image(noise_picture(map, "difference of Lden in dB", difference_scale(), difference),
+      encode_image(noise_picture(map,
+                                 has_trams ? "difference of Lden in dB; indicative, for trams count"
+                                           : "difference of Lden in dB",
+                                 difference_scale(), difference),
                    named(prefix, "_difference.png").string());
   if (!picture) return picture.errors();
   return write_together(

@@ -67,10 +67,11 @@ void add_facades(const propagation::Site& site, const NoiseOptions& options, Noi
 }
 
 /// The source's place on the scene's ground: lanes lie on paving, which the ground's raster may not follow.
+/// What has a height of its own keeps it.
 Place on_ground(Place source, double height_m, const propagation::SceneTerrain& terrain) {
   constexpr double bridge_m = 2.0;
   const double ground = terrain.ground_z(glm::dvec2(source));
-  if (std::abs(source.z - ground) < bridge_m) source.z = ground + height_m;
+  if (height_m >= 0.0 && std::abs(source.z - ground) < bridge_m) source.z = ground + height_m;
   return source;
 }
 
@@ -82,8 +83,7 @@ std::vector<PatchTransfer> transfers_to(const propagation::SceneSite& scene, con
                                         std::span<const SourcePatch> patches, const NoiseOptions& options,
                                         const propagation::Octaves& air) {
   const propagation::Site& site = *scene.site;
-  std::vector<propagation::WallSequence> sequences =
-      site.sequences_seen_from(glm::dvec2(receiver.place), options.paths);
+  std::vector<propagation::WallSequence> sequences = site.sequences_seen_from(receiver.place, options.paths);
   std::erase_if(sequences,
                 [&](const propagation::WallSequence& walls) { return walls.back() == receiver.wall; });
   std::vector<PatchTransfer> result;

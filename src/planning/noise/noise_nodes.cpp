@@ -1,5 +1,6 @@
-// trafficCount: how many vehicles pass on a road, for noise.
+// trafficCount: how many vehicles pass on a road, for noise. noiseSource: what else makes noise.
 #include "base/registries.h"
+#include "life/propagation/noise_source.h"
 #include "planning/noise/noise_map_node.h"
 #include "planning/noise/traffic_count.h"
 #include "room_list.h"
@@ -58,10 +59,53 @@ void build_count(const scene::Node& node, scene::SceneBuilder& builder) {
   builder.add(std::move(count));
 }
 
+scene::NodeSchema source_schema() {
+  return {.type = "noiseSource",
+          .help =
+              "Steady noise from a point or along a line: a fan, a terrace, a pipe. It is heard, and counts "
+              "in the "
+              "map of noise.",
+          .attributes =
+              {points("path", "one point, or the line's points").in("m").required(),
+               text("power_db",
+                    "sound power of the whole, dB re 1 pW: eight levels from 63 Hz to 8 kHz, or one in "
+                    "dB(A), whose A-weighted octaves are equal")
+                   .required(),
+               vec3("hours", "fraction in which it sounds: of day, evening, night").by_default("1 1 1")},
+          .example = "noiseSource(path=\"12 4 8.5\", power_db=\"70 68 66 64 62 58 52 45\", hours=\"1 1 0\")"};
+}
+
+void build_source(const scene::Node& node, scene::SceneBuilder& builder) {
+  propagation::NoiseSource source;
+  for (const glm::vec3& point : node.points("path"))
+    source.line.emplace_back(builder.world_from_parent() * glm::vec4(point, 1.0f));
+  source.line = scene::without_repeats(source.line);
+  const std::vector<double> levels = scene::parse_numbers(node.text("power_db"));
+  const auto is_level = [](double level) { return level >= -50.0 && level <= 160.0; };
+  if (source.line.empty() || (levels.size() != 1 && levels.size() != propagation::octaves) ||
+      !std::ranges::all_of(levels, is_level))
+    return builder.fail(error_at(node.where_of("power_db"),
+                                 "noiseSource: power_db=\"{}\"; expected one level or eight, -50 to 160 dB",
+                                 node.text("power_db")));
+  for (std::size_t band = 0; band < propagation::octaves; ++band)
+    source.power_db[band] = levels.size() > 1 ? levels[band]
+                                              : levels[0] - propagation::a_weights_db[band] -
+                                                    10.0 * std::log10(double(propagation::octaves));
+  const glm::vec3 hours = node.vec3("hours");
+  for (int i = 0; i < int(periods); ++i) {
+    if (!(hours[i] >= 0.0f && hours[i] <= 1.0f))
+      return builder.fail(
+          error_at(node.where_of("hours"), "noiseSource: {:g}; expected fractions of 0 to 1", hours[i]));
+    source.hours_share[std::size_t(i)] = double(hours[i]);
+  }
+  builder.add(std::move(source));
+}
+
 }  // namespace
 
 void register_room(Registries& registries) {
   registries.get<scene::NodeRegistry>().add(count_schema(), build_count);
+  registries.get<scene::NodeRegistry>().add(source_schema(), build_source);
   add_map_node(registries.get<scene::NodeRegistry>());
 }
 

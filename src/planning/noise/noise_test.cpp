@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "base/test_folder.h"
+#include "life/propagation/noise_source.h"
 #include "life/traffic/demand.h"
 #include "life/tram/tram_line.h"
 #include "planning/noise/noise_map.h"
@@ -117,6 +118,34 @@ TEST(Map, WhatCannotBeComputedIsAnError) {
   EXPECT_FALSE(compute_noise(with_road(), options)) << "empty";
 }
 
+TEST(Map, ANoiseSourceCountsWhileItSoundsAndWithoutRoads) {
+  scene::Scene scene;
+  propagation::NoiseSource fan;
+  fan.line = {{0, 0, 3}}, fan.power_db.fill(80.0), fan.hours_share = {1.0, 0.5, 0.0};
+  scene.data<scene::ItemsOf<propagation::NoiseSource>>().add(fan, 0);
+  NoiseOptions options = small_area();
+  options.favourable_fraction = 0.0;
+  const auto map = compute_noise(scene, options);
+  ASSERT_TRUE(map) << to_string(map.errors());
+  const NoiseLevels& near = map->levels.front();  // at -5, 25, 4
+  EXPECT_NEAR(near.lday - near.levening, 3.01, 0.01);
+  EXPECT_EQ(near.lnight, 0.0);
+  // A point source over hard ground.
+  propagation::Octaves expected = propagation::absorption_db_per_m(options.air);
+  const double distance_m = std::hypot(5.0, 25.0, 1.0);
+  for (double& level : expected)
+    level = 80.0 - 20.0 * std::log10(distance_m) - 11.0 + 3.0 - level * distance_m;
+  EXPECT_NEAR(near.lday, propagation::a_weighted(expected), 0.01);
+  // As a line of ten metres it has the same power.
+  fan.line = {{-5, 0, 3}, {5, 0, 3}};
+  scene::Scene other;
+  other.data<scene::ItemsOf<propagation::NoiseSource>>().add(fan, 0);
+  const auto line = compute_noise(other, options);
+  ASSERT_TRUE(line);
+  EXPECT_NEAR(line->levels.front().lday, near.lday, 0.3);
+  EXPECT_EQ(multiplied(line->sources, 2.0), line->sources.power) << "a factor of the roads' traffic";
+}
+
 TEST(Map, TramsAreSourcesOfTheirOwn) {
   scene::Scene scene;
   tram::TramLine line;
@@ -166,6 +195,18 @@ class NoiseMapNode : public scene::ScriptTest<> {
 TEST_F(NoiseMapNode, NeedsRoadsAndTwoCorners) {
   EXPECT_TRUE(holds(errors_of("noiseMap()\n"), "no roads"));
   EXPECT_TRUE(holds(errors_of("noiseMap(area=\"0 0 0, 1 1 0, 2 2 0\")\n"), "two corners"));
+}
+
+TEST_F(NoiseMapNode, NoiseSourcesHaveOneLevelOrEight) {
+  const scene::Scene scene = scene_of(
+      "noiseSource(path=\"1 2 3\", power_db=80)\nnoiseSource(path=\"1 2 3, 4 5 6\", power_db=\"1 2 3 4 5 6 7 "
+      "8\", hours=\"1 0 0\")\n");
+  ASSERT_EQ(scene.items<propagation::NoiseSource>().size(), 2u);
+  EXPECT_NEAR(propagation::a_weighted(scene.items<propagation::NoiseSource>()[0].power_db), 80.0, 1e-6);
+  EXPECT_EQ(scene.items<propagation::NoiseSource>()[1].power_db[7], 8.0);
+  EXPECT_TRUE(holds(errors_of("noiseSource(path=\"1 2 3\", power_db=\"1 2\")\n"), "one level or eight"));
+  EXPECT_TRUE(holds(errors_of("noiseSource(path=\"1 2 3\", power_db=900)\n"), "-50 to 160"));
+  EXPECT_TRUE(holds(errors_of("noiseSource(path=\"1 2 3\", power_db=80, hours=\"2 0 0\")\n"), "fractions"));
 }
 
 TEST(Files, AreWrittenTogether) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "land/roads/road_data.h"
+#include "life/propagation/noise_source.h"
 #include "life/propagation/tram_emission.h"
 #include "life/traffic/demand.h"
 #include "life/tram/tram_line.h"
@@ -184,6 +185,19 @@ void add_trams(const tram::TramLine& line, double patch_m, RoadSources& sources)
   sources.has_trams = true;
 }
 
+void add_noise_source(const propagation::NoiseSource& source, double patch_m, RoadSources& sources) {
+  const std::vector<glm::dvec3> places = source.places(patch_m);
+  PatchPower power{};
+  for (std::size_t p = 0; p < periods; ++p)
+    for (std::size_t band = 0; band < propagation::octaves; ++band)
+      power[p][band] =
+          source.hours_share[p] * propagation::energy(source.power_db[band]) / double(places.size());
+  for (const glm::dvec3& place : places) {
+    sources.patches.push_back({.middle = place, .lane = -1, .height_m = -1.0});
+    sources.power.push_back(power);
+  }
+}
+
 }  // namespace
 
 propagation::RoadSurface surface_named(const std::string& name) {
@@ -203,12 +217,14 @@ propagation::RoadSurface surface_named(const std::string& name) {
 }
 
 Result<RoadSources> road_sources(const scene::Scene& scene, double patch_m) {
-  RoadSources trams;
-  for (const tram::TramLine& line : scene.items<tram::TramLine>()) add_trams(line, patch_m, trams);
+  RoadSources others;
+  for (const tram::TramLine& line : scene.items<tram::TramLine>()) add_trams(line, patch_m, others);
+  for (const propagation::NoiseSource& source : scene.items<propagation::NoiseSource>())
+    add_noise_source(source, patch_m, others);
   const Result<std::vector<LaneTraffic>> lanes = traffic_of(scene);
-  if (!lanes) return trams.has_trams ? Result<RoadSources>(std::move(trams)) : lanes.errors();
+  if (!lanes) return others.patches.empty() ? Result<RoadSources>(lanes.errors()) : std::move(others);
   RoadSources sources;
-  sources.is_counted = !scene.items<TrafficCount>().empty();
+  sources.is_driven = scene.items<TrafficCount>().empty();
   for (std::size_t i = 0; i < lanes->size(); ++i) {
     if (!(*lanes)[i].has_figures) {
       sources.lanes_without_figures += scene.roads.lanes[i].crossing < 0 ? 1 : 0;
@@ -226,9 +242,9 @@ Result<RoadSources> road_sources(const scene::Scene& scene, double patch_m) {
     }
   }
   sources.power = power_of_patches(*lanes, sources.patches);
-  sources.patches.insert(sources.patches.end(), trams.patches.begin(), trams.patches.end());
-  sources.power.insert(sources.power.end(), trams.power.begin(), trams.power.end());
-  sources.has_trams = trams.has_trams;
+  sources.patches.insert(sources.patches.end(), others.patches.begin(), others.patches.end());
+  sources.power.insert(sources.power.end(), others.power.begin(), others.power.end());
+  sources.has_trams = others.has_trams;
   return sources;
 }
 

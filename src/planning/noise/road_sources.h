@@ -1,4 +1,4 @@
-// The roads of a scene as sources of noise: patches of lanes with their sound power.
+// What makes noise in a scene: patches of lanes, tram tracks and noise sources with their sound power.
 #pragma once
 
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace parvis::noise {
 
-/// A piece of a lane or of tram track: a source at its middle stands for it.
+/// A piece of a lane, of tram track or of a noise source: a source at its middle stands for it.
 struct SourcePatch {
   propagation::Place middle{0.0};
   glm::dvec3 half{0.0};    ///< from the middle to the patch's end, metres
-  int lane = 0;            ///< index in the scene's road graph; -1: it is of trams
-  double height_m = 0.05;  ///< over the ground; CNOSSOS-EU, 2.2.1: all vehicles
+  int lane = 0;            ///< index in the scene's road graph; -1: it is of trams, or of a noise source
+  double height_m = 0.05;  ///< over the ground; CNOSSOS-EU, 2.2.1: all vehicles; negative: its own height
 
   /// Length, metres.
   double length_m() const { return 2.0 * glm::length(half); }
@@ -23,20 +23,21 @@ struct SourcePatch {
 /// Energies of the sound power of a patch (relative to 1 pW), by octave, for each period.
 using PatchPower = std::array<propagation::Octaves, periods>;
 
-/// The sources of a scene: roads, and trams at their headways, the same at all hours.
+/// The sources of a scene: roads, trams at their headways (the same at all hours), noise sources.
 struct RoadSources {
   std::vector<SourcePatch> patches;
   std::vector<PatchPower> power;  ///< of each patch
-  bool is_counted = false;        ///< by trafficCount; else by the vehicles of traffic, the same at all hours
+  bool is_driven = false;         ///< the vehicles of traffic count, the same at all hours, not trafficCount
   int lanes_without_figures = 0;  ///< that are silent: no trafficCount names their road
   bool has_trams = false;         ///< then levels are indicative: no standard has plain trams
 };
 
-/// Patches of `patch_m` at most. Errors, where no trams run: no roads; neither trafficCount nor traffic.
+/// Patches of `patch_m` at most. Errors, where nothing else makes noise: no roads; neither trafficCount nor
+/// traffic.
 Result<RoadSources> road_sources(const scene::Scene& scene, double patch_m);
 
 /// The power of the same patches where so many times as many vehicles drive on each road; trams keep their
-/// headways.
+/// headways, and noise sources their power.
 std::vector<PatchPower> multiplied(const RoadSources& sources, double factor);
 
 }  // namespace parvis::noise
