@@ -79,48 +79,96 @@ glm::dvec2 pixel_of(const WallPicture& picture, glm::dvec3 point) {
   return (glm::dvec2(clip) / clip.w * glm::dvec2(0.5, -0.5) + 0.5) * glm::dvec2(picture.size);
 }
 
-/// Scene points on the edges that two walls share, as both walls' cameras show them: the farthest distance on
-/// the wall, in pixels. `eye_of` chooses the eye whose picture the second wall shows.
-double seam_px(const Display& room, const display::Head& head, bool mixes_eyes) {
+/// The ends of the edge that two walls share; nothing where they share none.
+std::optional<std::array<glm::dvec3, 2>> shared_edge(const Wall& first, const Wall& second) {
+  const auto corners = [](const Wall& wall) {
+    return std::array{wall.lower_left, wall.lower_right, wall.lower_right + wall.upper_left - wall.lower_left,
+                      wall.upper_left};
+  };
+  std::vector<glm::dvec3> shared;
+  for (const glm::dvec3& corner : corners(first))
+    for (const glm::dvec3& other : corners(second))
+      if (glm::distance(corner, other) < 1e-6) shared.push_back(corner);
+  if (shared.size() != 2) return std::nullopt;
+  return std::array{shared[0], shared[1]};
+}
+
+/// The middle of the light at a picture's border about a point of an edge, in pixels along the edge from that
+/// point; nothing where it is dark there. The light on the border itself follows from the two rows of pixels
+/// within.
+std::optional<double> light_on_border(const ImageF& drawn, const WallPicture& picture,
+                                      const std::array<glm::dvec3, 2>& edge, glm::dvec3 point) {
+  constexpr int within = 22;
+  const glm::dvec2 at = pixel_of(picture, point),
+                   along = pixel_of(picture, edge[1]) - pixel_of(picture, edge[0]);
+  const int axis = std::abs(along.x) > std::abs(along.y) ? 0 : 1, across = 1 - axis;
+  const bool is_at_end = at[across] > 0.5 * picture.size[across];
+  const auto light_at = [&](int place, int row) {
+    glm::ivec2 pixel;
+    pixel[axis] = place, pixel[across] = is_at_end ? picture.size[across] - 1 - row : row;
+    return std::min(double(drawn.at(pixel.x, pixel.y)[0]), 1.0);
+  };
+  double sum = 0.0, weight = 0.0;
+  for (int place = int(at[axis]) - within; place <= int(at[axis]) + within; ++place) {
+    if (place < 0 || place >= picture.size[axis]) return std::nullopt;
+    const double light = std::max(1.5 * light_at(place, 0) - 0.5 * light_at(place, 1), 0.0);
+    sum += light * (place + 0.5 - at[axis]), weight += light;
+  }
+  if (weight < 2.0) return std::nullopt;
+  return sum / weight * (along[axis] < 0.0 ? -1.0 : 1.0);
+}
+
+/// Balls that shine across the edges of walls, drawn: how far the middle of their light on an edge is in one
+/// wall's picture from where it is in the other's, pixels, the farthest; with the pictures of one eye, and
+/// with those of the left eye beside those of the right one.
+std::pair<double, double> seams_px(const Display& room, const display::Head& head, int* compared) {
   const Camera view = view_of_the_room();
   const std::vector<WallPicture> pictures = display::pictures_of(room, head, view);
   const glm::dmat4 from_room = display::world_from_room(room, view);
-  const auto point_on = [&](const Wall& wall, const WallPicture& picture, glm::dvec3 world) {
-    const float aspect = float(picture.size.x) / float(picture.size.y);
-    // As the GPU has it: in floats.
-    const glm::vec4 clip = picture.camera.clip_from_camera(aspect) *
-                           (picture.camera.camera_from_world() * glm::vec4(glm::vec3(world), 1.0f));
-    const glm::dvec2 share = 0.5 + 0.5 * glm::dvec2(clip) / double(clip.w);
-    return wall.lower_left + share.x * (wall.lower_right - wall.lower_left) +
-           share.y * (wall.upper_left - wall.lower_left);
+  const auto points_on = [](const std::array<glm::dvec3, 2>& edge) {
+    std::vector<glm::dvec3> points;
+    for (const double part : {0.2, 0.4, 0.6, 0.8}) points.push_back(glm::mix(edge[0], edge[1], part));
+    return points;
   };
-  const double pixel_m = 3.0 / room.walls[0].pixels.y;
-  double farthest = 0.0;
+  scene::Scene scene;
+  scene::Material shining;
+  shining.emission = glm::vec3(1.0f), shining.base_colour = glm::vec3(0.0f);
+  for (std::size_t a = 0; a < room.walls.size(); ++a)
+    for (std::size_t b = a + 1; b < room.walls.size(); ++b)
+      if (const auto edge = shared_edge(room.walls[a], room.walls[b]))
+        for (const glm::dvec3& point : points_on(*edge)) {
+          constexpr double times_as_far = 20.0;
+          const glm::dvec3 place = head.position + times_as_far * (point - head.position);
+          const glm::vec3 in_world(glm::dvec3(from_room * glm::dvec4(place, 1.0)));
+          scene::add(scene, scene::model_of(scene::sphere(in_world, 0.8f), shining));
+        }
+  scene.exposure = 1.0f;
+  const std::unique_ptr<stage::Stage> stage = stage_of(scene);
+  std::vector<render::EyeView> eyes;
+  for (const WallPicture& picture : pictures)
+    eyes.push_back({picture.camera, picture.size.x, picture.size.y});
+  must(stage->draw(eyes));
+  std::vector<ImageF> drawn;
+  for (std::size_t i = 0; i < eyes.size(); ++i) {
+    stage->renderer().select_eye(i);
+    drawn.push_back(stage->renderer().read_radiance());
+  }
+  stage->renderer().select_eye(0);
+  double farthest = 0.0, farthest_mixed = 0.0;
   for (std::size_t a = 0; a < pictures.size(); ++a)
     for (std::size_t b = 0; b < pictures.size(); ++b) {
-      const Wall &first = room.walls[pictures[a].wall], &second = room.walls[pictures[b].wall];
-      if (pictures[a].wall >= pictures[b].wall || (pictures[a].eye == pictures[b].eye) == mixes_eyes)
-        continue;
-      const auto corners = [](const Wall& wall) {
-        return std::array{wall.lower_left, wall.lower_right,
-                          wall.lower_right + wall.upper_left - wall.lower_left, wall.upper_left};
-      };
-      std::vector<glm::dvec3> shared;
-      for (const glm::dvec3& corner : corners(first))
-        for (const glm::dvec3& other : corners(second))
-          if (glm::distance(corner, other) < 1e-6) shared.push_back(corner);
-      if (shared.size() != 2) continue;
-      const glm::dvec3 eye =
-          head.position + (pictures[a].eye == Eye::left ? -0.5 : 0.5) * room.eye_separation_m * head.right;
-      for (int i = 0; i <= 20; ++i) {
-        const glm::dvec3 on_edge = glm::mix(shared[0], shared[1], i / 20.0);
-        const glm::dvec3 world(from_room * glm::dvec4(eye + 20.0 * (on_edge - eye), 1.0));
-        farthest = std::max(farthest, glm::distance(point_on(first, pictures[a], world),
-                                                    point_on(second, pictures[b], world)) /
-                                          pixel_m);
+      if (pictures[a].wall >= pictures[b].wall) continue;
+      const auto edge = shared_edge(room.walls[pictures[a].wall], room.walls[pictures[b].wall]);
+      if (!edge) continue;
+      double& worst = pictures[a].eye == pictures[b].eye ? farthest : farthest_mixed;
+      for (const glm::dvec3& point : points_on(*edge)) {
+        const auto first = light_on_border(drawn[a], pictures[a], *edge, point),
+                   second = light_on_border(drawn[b], pictures[b], *edge, point);
+        if (!first || !second) continue;
+        worst = std::max(worst, std::abs(*first - *second)), ++*compared;
       }
     }
-  return farthest;
+  return {farthest, farthest_mixed};
 }
 
 /// How far the sum of the light of two projectors leaves an even picture, percent. `gamma`: of the
@@ -263,11 +311,13 @@ void measure_off_axis(const BenchSetup& setup, Report& report) {
   report.add("offaxis_error_px_of_centred_frusta", farthest_centred);
 
   double seam = 0.0, seam_of_mixed_eyes = 0.0;
-  const Display fine = room_of_five(1080);
-  for (const display::Head& head : heads(200)) {
-    seam = std::max(seam, seam_px(fine, head, false));
-    seam_of_mixed_eyes = std::max(seam_of_mixed_eyes, seam_px(fine, head, true));
+  int balls_on_edges = 0;
+  for (const display::Head& head : leaning) {
+    const auto [of_one_eye, of_mixed_eyes] = seams_px(room, head, &balls_on_edges);
+    seam = std::max(seam, of_one_eye), seam_of_mixed_eyes = std::max(seam_of_mixed_eyes, of_mixed_eyes);
   }
+  if (balls_on_edges < 40) fail("only {} balls on edges were compared", balls_on_edges);
+  report.note(fmt::format("{} balls on edges compared", balls_on_edges));
   report.add("seam_px", seam);
   report.add("seam_px_of_mixed_eyes", seam_of_mixed_eyes);
 }

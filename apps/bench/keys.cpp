@@ -78,7 +78,7 @@ constexpr Key keys[]{
     {"xdf_read_back", "", minimum(1.0), "every value of a session as XDF, read by libxdf", {{"xdf_read_back_of_one_bit_changed"}}},
     // display
     {"offaxis_error_px", "px", maximum(0.1), "middles of shining balls, five walls, two eyes, a leaning head (four): drawn against traced, the farthest", {{"offaxis_error_px_of_centred_frusta"}}},
-    {"seam_px", "px", maximum(0.5), "points on the edges of five walls of 1080 pixels, two eyes, 200 heads: as one wall shows them against the other, the farthest", {{"seam_px_of_mixed_eyes"}}},
+    {"seam_px", "px", maximum(0.5), "balls that shine across the edges of five walls of 240 pixels, two eyes, a leaning head (four): the middle of their light on an edge in one wall's picture against the other's, the farthest", {{"seam_px_of_mixed_eyes"}}},
     {"blend_flatness_percent", "%", maximum(1.0), "two projectors of gamma 2.2 that overlap, four greys: light over 8 pixels against the even picture", {{"blend_flatness_percent_of_another_gamma"}}},
     {"wall_cost_over_view", "", maximum(1.2), "paper city, five walls of 512x512 (256x256) over one view of as many pixels through each wall in turn, medians", {{"wall_cost_over_view_of_whole_views"}}},
     {"walls_lock_frames", "frames", maximum(1.0), "four walls and an operator, five processes, 300 frames (60): the most that one is ahead of another", {{"walls_lock_frames_of_processes_by_themselves"}}},
