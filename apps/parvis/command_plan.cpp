@@ -123,7 +123,8 @@ Status take_kinds(const Arguments& arguments, const stage::Simulation& simulatio
         design::import_kind(simulation.registries->get<formats::Readers>(), simulation.scene, file,
                             units.at(arguments.kind_unit));
     if (!kind) return kind.errors();
-    if (!kind->new_file.empty()) new_files.files.push_back(kind->new_file);
+    const bool is_named_by_journal = arguments.keeps_journal;
+    if (!kind->new_file.empty() && !is_named_by_journal) new_files.files.push_back(kind->new_file);
     if (Status status = session.run(design::Command(kind->command)); !status) return status;
     fmt::print("{}\n", kind->note);
   }
@@ -218,7 +219,6 @@ Status work_on(const Arguments& arguments, stage::Simulation& simulation, stage:
   }
   NewFiles new_files;
   if (Status status = take_kinds(arguments, simulation, *session, new_files); !status) return status;
-  if (arguments.keeps_journal) new_files.files.clear();
   if (Status status = run_commands(arguments, *session); !status) return status;
   if (arguments.lists_objects) list_objects(*session);
   if (!arguments.compared.empty())

@@ -47,10 +47,11 @@ std::optional<glm::vec2> wall_on(design::SceneSurfaces& surfaces, glm::vec3 from
     const glm::vec3 ahead(glm::rotate(way / length_m, turn), 0.0f);
     for (const float above_feet_m : {0.6f, 1.3f}) {
       const glm::vec3 origin = from + glm::vec3(0.0f, 0.0f, above_feet_m - eye_m);
-      const auto met = surfaces.first_along({origin, ahead, 0.0f, length_m + shoulders_m});
+      const auto met = surfaces.first_along_lately({origin, ahead, 0.0f, length_m + shoulders_m});
       if (!met) continue;
-      const glm::vec2 side(met->normal);
-      return glm::length(side) > 0.1f ? glm::normalize(side) : -way / length_m;
+      const glm::vec2 normal(met->normal);
+      const glm::vec2 side = glm::length(normal) > 0.1f ? glm::normalize(normal) : -way / length_m;
+      if (glm::dot(way, side) < -1e-3f * length_m) return side;  // else the way goes along it or leaves it
     }
   }
   return std::nullopt;
@@ -67,7 +68,7 @@ std::optional<glm::vec3> step_on_foot(design::SceneSurfaces& surfaces, glm::vec3
   }
   const glm::vec3 reached(glm::vec2(from) + way, to.z);
   const glm::vec3 knees = reached + glm::vec3(0.0f, 0.0f, max_step_m - eye_m);
-  const auto below = surfaces.first_along({knees, {0.0f, 0.0f, -1.0f}, 0.0f, max_step_m + max_fall_m});
+  const auto below = surfaces.first_along_lately({knees, {0.0f, 0.0f, -1.0f}, 0.0f, max_step_m + max_fall_m});
   if (!below) return reached;  // nothing to stand on: the eye keeps its height
   return glm::vec3(reached.x, reached.y, float(below->position.z) + eye_m);
 }

@@ -66,6 +66,26 @@ class PlanningTest : public SquareTest {
   std::optional<Planning> planning_;
 };
 
+TEST_F(PlanningTest, WhoWalksStopsAtWallsAndGoesAlongThem) {
+  place("kiosk", {1, -4, 0});
+  planning_->turn_on(false);
+  Navigation& visitor = visit_->navigation();
+  const auto walked = [&](glm::vec3 from, glm::vec2 step, int steps) {
+    glm::vec3 here = from;
+    for (int i = 0; i < steps; ++i) here = visitor.on_foot(here, here + glm::vec3(step, 0.0f)).value_or(here);
+    return here;
+  };
+  const glm::vec3 before(-4.0f, -4.0f, 1.7f);
+  const glm::vec3 stopped = walked(before, {0.1f, 0.0f}, 60);
+  EXPECT_GT(stopped.x, -2.0f);
+  EXPECT_LT(stopped.x, 0.5f) << "the kiosk is in the way";
+  const glm::vec3 slid = walked(stopped, {0.05f, 0.05f}, 10);
+  EXPECT_NEAR(slid.y, stopped.y + 0.5f, 0.1f) << "along it";
+  EXPECT_NEAR(slid.x, stopped.x, 0.1f);
+  EXPECT_GT(walked(slid, {0.0f, 0.2f}, 5).y, slid.y + 0.8f) << "with longer strides, too";
+  EXPECT_LT(walked(slid, {-0.1f, 0.02f}, 10).x, slid.x - 0.8f) << "and away from it";
+}
+
 TEST_F(PlanningTest, WhatHangsOnThePointerLooksAsItWillStand) {
   planning_->tool()->choose_kind("kiosk");
   planning_->tool()->point(at({1, -4, 0}));

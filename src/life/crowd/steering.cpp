@@ -230,7 +230,9 @@ glm::vec2 Steering::steered(const Walkers& walkers, std::size_t number, const Wa
         {{around.x[n], around.y[n]}, self.velocity - other.velocity, slim_[self.index] + slim_[other.index]},
         self.velocity, goes_along ? along_horizon_s : rules_.horizon_s, step_s, share);
   }
-  const float free_speed = walkers.free_speed[self.index], own_speed = glm::length(self.velocity);
+  const float free_speed = walkers.free_speed[self.index];
+  // Who was pushed does not go on as fast as that.
+  const float own_speed = std::min(glm::length(self.velocity), free_speed);
   const glm::vec2 preferred =
       wanted == glm::vec2(0.0f)
           ? wanted

@@ -19,12 +19,22 @@ const reference::RayScene& SceneSurfaces::rays() {
     rays_ = std::make_unique<reference::RayScene>(scene_);
   else
     rays_->update(scene_);
+  asked_ = 0;
   return *rays_;
 }
 
 std::optional<SceneSurfaces::Place> SceneSurfaces::first_along(reference::Ray ray, const Names& without) {
+  return first(rays(), ray, without);
+}
+
+std::optional<SceneSurfaces::Place> SceneSurfaces::first_along_lately(const reference::Ray& ray) {
+  constexpr int kept_questions = 200;
+  return first(rays_ && ++asked_ < kept_questions ? *rays_ : rays(), ray, {});
+}
+
+std::optional<SceneSurfaces::Place> SceneSurfaces::first(const reference::RayScene& now, reference::Ray ray,
+                                                         const Names& without) const {
   constexpr int max_passed = 64;
-  const reference::RayScene& now = rays();
   for (int passed = 0; passed < max_passed; ++passed) {
     const std::optional<reference::Hit> hit = now.nearest_hit(ray);
     if (!hit) return std::nullopt;

@@ -22,6 +22,9 @@ class SceneSurfaces {
   };
   /// The first surface along a ray, without the objects that are named; none: the sky.
   std::optional<Place> first_along(reference::Ray ray, const Names& without = {});
+  /// The same for those who walk, who ask many times in each frame: of the scene as it was a while ago, at
+  /// most 200 questions.
+  std::optional<Place> first_along_lately(const reference::Ray& ray);
 
   /// Height of what objects rest on: of all that lies there, the highest within 1.2 m of the lowest: ground,
   /// kerb, steps, table tops, but no roofs. What rooms draw by themselves (plants) and backdrops do not
@@ -30,9 +33,11 @@ class SceneSurfaces {
 
  private:
   const reference::RayScene& rays();
+  std::optional<Place> first(const reference::RayScene& rays, reference::Ray ray, const Names& without) const;
 
   const scene::Scene& scene_;
   std::unique_ptr<reference::RayScene> rays_;  ///< made when it is first asked for
+  int asked_ = 0;                              ///< since it was brought up to date
 };
 
 /// `resting_height` of surfaces that the function keeps.

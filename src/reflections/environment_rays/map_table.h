@@ -34,6 +34,10 @@ class MapTable {
   /// Numbers of the maps without a layer that reflecting points within a box of the world look into; the
   /// others count as looked into in this frame.
   std::vector<std::size_t> look_within(const Bounds& bounds);
+  /// Is there a layer to give?
+  bool has_room() const {
+    return std::ranges::find(map_in_, none) != map_in_.end() || std::ranges::min(used_in_) != frame_;
+  }
   /// Gives a map a layer: a free one, else that of the map that was looked into least recently. None: this
   /// frame looks into all that are held. `upload` shows it.
   std::optional<std::size_t> give_layer(std::size_t map);

@@ -181,8 +181,10 @@ void MultipleEnvironmentMaps::find_missing_maps(const render::Renderer& renderer
 void MultipleEnvironmentMaps::copy_baked() {
   if (wanted_.empty() || !baked_ || search_) return;
   const auto copied = std::erase_if(wanted_, [&](std::size_t map) {
+    if (!table_.has_room() || unbaked_.contains(map)) return false;
     const auto kept = baked_map(*baked_, map, table_.places(), maps_.resolution());
     const std::optional<std::size_t> layer = kept ? table_.give_layer(map) : std::nullopt;
+    if (!kept) unbaked_.insert(map);
     if (!layer) return false;
     maps_.move(*layer, table_.places()[map]);
     maps_.copy(*layer, *kept, 0);
@@ -205,7 +207,7 @@ bool MultipleEnvironmentMaps::take_places(const scene::Scene& scene) {
   maps_ = *std::move(maps);
   table_ = MapTable(std::move(placed.choice), std::move(placed.places), maps_.places().size());
   renewal_.ask(maps_.places().size(), {});
-  wanted_.clear();
+  wanted_.clear(), unbaked_.clear();
   return true;
 }
 
@@ -220,6 +222,7 @@ void MultipleEnvironmentMaps::keep(const scene::Scene& scene, std::size_t map) {
     }
     keeper_ = std::make_unique<MapKeeper>(*baked_);
   }
+  unbaked_.erase(map);
   const ReferenceMaps& drawn = renewal_.drawn_last();
   keeper_->keep({table_.places(), std::uint32_t(map), std::uint32_t(drawn.resolution()), drawn.read(0)});
 }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <set>
 
 #include "graphics/gl/uniform_block.h"
 #include "graphics/render/quality_budget.h"
@@ -97,6 +98,7 @@ class MultipleEnvironmentMaps final : public methods::Reflections {
   Programs programs_;
   std::unique_ptr<PlaceSearch> search_;  ///< of all maps' places; null: they are found
   std::optional<MapCache> baked_;        ///< none: what is baked is out of date
+  std::set<std::size_t> unbaked_;        ///< maps of which it holds none that can be read
   std::unique_ptr<MapKeeper> keeper_;    ///< from the first map on that a window draws
   ReferenceMaps maps_;
   MapRenewal renewal_;
