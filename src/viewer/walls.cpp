@@ -228,6 +228,7 @@ class WallFrames {
       if (Status status = draw(told.seconds); !status) return status;
       glFinish();
       wait_for_all();
+      has_begun_ = true;
       for (WallWindow& window : windows_) window.swap();
       if (log_)
         log_ << fmt::format("{},{},{:.6f}\n", frame, Steady::now().time_since_epoch().count(), scene_s)
@@ -243,14 +244,15 @@ class WallFrames {
  private:
   static constexpr glm::vec2 panel_size{900.0f, 600.0f};
 
-  /// Names the walls of processes that hang, and ends the show where they go on to.
+  /// Names the walls of processes that hang, and ends the show where they go on to once all have shown a
+  /// frame: how long loading takes differs between machines.
   void wait_for_all() const {
     constexpr double longest_s = 30.0;
     options_.processes.wait_for_all([&](std::span<const int> missing, double seconds) {
       for (const int process : missing)
         fmt::print(stderr, "process {} has not answered for {:.0f} s: {}\n", process, seconds,
-                   seconds < longest_s ? "the walls wait for it" : "the show ends");
-      if (seconds >= longest_s) options_.processes.give_up();
+                   seconds < longest_s || !has_begun_ ? "the walls wait for it" : "the show ends");
+      if (seconds >= longest_s && has_begun_) options_.processes.give_up();
     });
   }
 
@@ -517,7 +519,7 @@ class WallFrames {
   std::optional<glm::dvec3> rod_end_;       ///< in the room
   std::optional<glm::dvec2> panel_cursor_;  ///< of the rod: shares from the upper left
   bool clicks_panel_ = false, shows_panel_ = false, is_clicking_ = false, has_clicked_ = false,
-       has_differed_ = false;
+       has_differed_ = false, has_begun_ = false;
   Feeling feeling_;
   double state_ = 0.0;
   std::string told_error_;

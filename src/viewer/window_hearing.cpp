@@ -34,15 +34,25 @@ void Hearing::send(const sound::OscMessage& message) {
     server_->send(*packet);
 }
 
-/// Read when it is first heard. A file that is gone by then has no bytes: nothing is sent.
-const Hearing::SentFile& Hearing::sent_file(const sound::Recording& recording) {
+/// The name by which it is sent; empty until it has been read, which begins when it is first heard, and again
+/// where the file was written since. A file that is gone by then has no bytes: nothing is sent.
+std::string Hearing::sent_name(const sound::Recording& recording) {
   SentFile& sent = sent_files_[recording.file];
-  if (sent.name.empty()) {
-    Result<std::string> bytes = read_file(recording.file, sound::max_recording_bytes);
-    sent.bytes = bytes ? *std::move(bytes) : std::string();
+  sent.unheard_s = 0.0;
+  std::error_code ignored;
+  const auto written = std::filesystem::last_write_time(recording.file, ignored);
+  if (!sent.read.valid() && (sent.name.empty() || written != sent.written)) {
+    sent.written = written;
+    sent.read = std::async(std::launch::async, [file = recording.file] {
+      Result<std::string> bytes = read_file(file, sound::max_recording_bytes);
+      return bytes ? *std::move(bytes) : std::string();
+    });
+  }
+  if (sent.read.valid() && sent.read.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    sent.bytes = sent.read.get();
     sent.name = sound::name_of_recording(sent.bytes);
   }
-  return sent;
+  return sent.name;
 }
 
 /// Sends the parts of a recording that the server lacks.
@@ -73,10 +83,17 @@ void Hearing::tell_server(const scene::Scene& scene, std::span<const sound::Hear
   }
   send({"/parvis/ping", {}, {}});
   send({"/parvis/mute", {is_muted_ ? 1.0 : 0.0}, {""}});
+  for (auto& [path, file] : sent_files_) file.unheard_s += waited_s_;
   for (const sound::HeardSound& sound : heard)
-    send(sound::message_of(sound, time_s, sound.recording ? sent_file(*sound.recording).name : ""));
+    if (const std::string file = sound.recording ? sent_name(*sound.recording) : "";
+        !sound.recording || !file.empty())
+      send(sound::message_of(sound, time_s, file));
   for (const sound::Bed& bed : sound::beds_of(scene))
-    send({"/parvis/bed", {0.0, double(bed.gain)}, {sent_file(*bed.recording).name, ""}});
+    if (const std::string file = sent_name(*bed.recording); !file.empty())
+      send({"/parvis/bed", {0.0, double(bed.gain)}, {file, ""}});
+  std::erase_if(sent_files_, [](const auto& it) {
+    return it.second.unheard_s > sound::SentRecordings::forgotten_s && !it.second.read.valid();
+  });
 }
 
 std::string Hearing::take_message() {

@@ -42,8 +42,11 @@ class Hearing {
   /// A recording as a server asks for it.
   struct SentFile {
     std::string name, bytes;
+    std::filesystem::file_time_type written = {};
+    std::future<std::string> read;  ///< of its bytes
+    double unheard_s = 0.0;
   };
-  const SentFile& sent_file(const sound::Recording& recording);
+  std::string sent_name(const sound::Recording& recording);
   void answer(const sound::OscMessage& wanted);
   void send(const sound::OscMessage& message);
   void begin_to_play();

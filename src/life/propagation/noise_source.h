@@ -19,14 +19,19 @@ struct NoiseSource {
   Octaves power_db{};                   ///< of the whole, dB re 1 pW
   std::array<double, 3> hours_share{};  ///< of day, evening and night in which it sounds, 0 to 1
 
-  /// The middles of its pieces, which are as long and at most so long.
-  std::vector<glm::dvec3> places(double max_piece_m) const {
-    if (line.size() < 2) return {glm::dvec3(line.front())};
+  /// A piece: a source at its middle stands for it.
+  struct Piece {
+    glm::dvec3 middle{0.0}, half{0.0};  ///< half: from the middle to its end, metres
+  };
+  /// Its pieces, which are as long as each other and at most so long.
+  std::vector<Piece> pieces(double max_piece_m) const {
+    if (line.size() < 2) return {{glm::dvec3(line.front())}};
     const scene::MeasuredPath path(line);
     const double length_m = double(path.length());
-    const int pieces = std::max(1, int(std::ceil(length_m / max_piece_m)));
-    std::vector<glm::dvec3> result;
-    for (int i = 0; i < pieces; ++i) result.emplace_back(path.at(float(length_m * (i + 0.5) / pieces)));
+    const int count = std::max(1, int(std::ceil(length_m / max_piece_m)));
+    const auto at = [&](double piece) { return glm::dvec3(path.at(float(length_m * piece / count))); };
+    std::vector<Piece> result;
+    for (int i = 0; i < count; ++i) result.push_back({at(i + 0.5), 0.5 * (at(i + 1) - at(i))});
     return result;
   }
   /// Adds all members; see SceneData.

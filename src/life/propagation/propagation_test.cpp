@@ -202,6 +202,23 @@ TEST(Site, SoundPassesBelowTheFrontOfAnArcade) {
       << "above the opening it is a wall";
 }
 
+TEST(Site, AnEdgeAboveTheRayTakesNothingFromIt) {
+  const ArcadeOnPlain terrain;
+  std::vector<Wall> walls{{{-40, 0}, {40, 0}, 12, 12, Octaves{}, 3.5}};
+  const Site open(terrain, walls);
+  walls[0].bottom = -1e9;
+  const Site closed(terrain, walls);
+  const auto softened_by_db = [&](const Site& site) {  // in clear sight past the front's end at -40
+    const auto level_db = [&](bool softens) {
+      const PathChoice choice{.reflections = 0, .softens_shadows = softens};
+      return site.transfer({-36, -10, 1}, {-41, 2, 1.7}, {}, choice, air_10_70).homogeneous_db[4];
+    };
+    return level_db(false) - level_db(true);
+  };
+  EXPECT_NEAR(softened_by_db(open), 0.0, 1e-9);
+  EXPECT_GT(softened_by_db(closed), 1.0);
+}
+
 TEST(Site, PathsAreReciprocalOverHardGround) {
   const BoxOnPlain terrain;
   const Site site(terrain, BoxOnPlain::walls());

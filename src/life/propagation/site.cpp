@@ -63,6 +63,12 @@ struct Site::Grazed {
   double from_begin_m;
 };
 
+/// An upright edge of a wall.
+struct Site::End {
+  dvec2 place{0.0};
+  double top = 0.0, bottom = 0.0;
+};
+
 /// Where a line crosses a wall.
 struct Site::Crossing {
   double distance_m;  ///< from the line's begin
@@ -169,8 +175,8 @@ Site::Site(const Terrain& terrain, std::vector<Wall> walls)
       neighbours_(walls_.size()),
       rays_(std::make_unique<Rays>(walls_)) {
   for (const Wall& wall : walls_) {
-    ends_.emplace_back(wall.a, wall.top_a);
-    ends_.emplace_back(wall.b, wall.top_b);
+    ends_.push_back({wall.a, wall.top_a, wall.bottom});
+    ends_.push_back({wall.b, wall.top_b, wall.bottom});
   }
   std::map<std::pair<long, long>, std::vector<std::pair<int, int>>> ends;  // by centimetre: wall, end
   const auto key = [](dvec2 p) { return std::pair{std::lround(100.0 * p.x), std::lround(100.0 * p.y)}; };
@@ -477,10 +483,12 @@ std::optional<Site::Grazed> Site::grazed(const Place& from, const Place& to) con
   const double square = glm::dot(direct, direct), direct_m = glm::distance(from, to);
   constexpr double reach_m = 0.3;  // beyond this path difference the lowest octave loses nothing
   std::optional<Grazed> nearest;
-  for (const Place& end : ends_) {
-    const double t = glm::dot(dvec2(end) - begin, direct) / square;
-    const Place corner(dvec2(end), glm::mix(from.z, to.z, t));
-    if (t <= 0.0 || t >= 1.0 || end.z <= corner.z || glm::distance(corner, from) < touch_m) continue;
+  for (const End& end : ends_) {
+    const double t = glm::dot(end.place - begin, direct) / square;
+    const Place corner(end.place, glm::mix(from.z, to.z, t));
+    if (t <= 0.0 || t >= 1.0 || end.top <= corner.z || corner.z < end.bottom ||
+        glm::distance(corner, from) < touch_m)
+      continue;
     const double difference_m = glm::distance(from, corner) + glm::distance(corner, to) - direct_m;
     if (difference_m < (nearest ? nearest->difference_m : reach_m))
       nearest = Grazed{difference_m, glm::distance(from, corner)};

@@ -143,6 +143,7 @@ class Site {
   class Rays;
   struct Crossing;
   struct Grazed;
+  struct End;
   std::vector<Crossing> crossings(const Place& from, const Place& to) const;
   void add_leg(const Place& from, const Place& to, double offset_m, Profile& profile) const;
   std::optional<Grazed> grazed(const Place& from, const Place& to) const;
@@ -154,7 +155,7 @@ class Site {
   const Terrain& terrain_;
   std::vector<Wall> walls_;
   std::vector<std::array<std::vector<int>, 2>> neighbours_;  // of each wall: those that share its end a, b
-  std::vector<Place> ends_;                                  // of walls, with their tops
+  std::vector<End> ends_;                                    // of walls
   std::unique_ptr<Rays> rays_;
 };
 

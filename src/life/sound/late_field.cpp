@@ -46,6 +46,19 @@ void for_each_ray(const Trace& trace) {
     }
 }
 
+/// How far in plan a ray goes, of a way, until it rises through a ceiling.
+double to_ceiling_m(const propagation::Terrain& terrain, const glm::dvec3& from, glm::dvec2 along,
+                    double rise, double way_m) {
+  constexpr double step_m = 0.5;
+  for (double at_m = 0.0; at_m < way_m; at_m += step_m) {
+    const std::optional<double> ceiling = terrain.ceiling_z(glm::dvec2(from) + at_m * along);
+    const double z = from.z + rise * at_m;
+    if (ceiling && z <= *ceiling && z + rise * step_m > *ceiling)
+      return std::min(at_m + (*ceiling - z) / rise, way_m);
+  }
+  return way_m;
+}
+
 }  // namespace
 
 Enclosure enclosure_about(const propagation::Site& site, const glm::dvec3& place, int first_order,
@@ -53,6 +66,8 @@ Enclosure enclosure_about(const propagation::Site& site, const glm::dvec3& place
   const double ground = site.terrain().ground_z(glm::dvec2(place));
   double area_m2 = 0.0, height_m = 0.0;
   int walls = 0;
+  const bool has_ceilings =
+      std::ranges::any_of(site.walls(), [](const propagation::Wall& wall) { return wall.bottom > -1e8; });
   LateRays rays{air_db_per_m};
   for_each_ray([&](glm::dvec2 along, double sine, double cosine) {
     glm::dvec3 from = place;
@@ -61,19 +76,22 @@ Enclosure enclosure_about(const propagation::Site& site, const glm::dvec3& place
     for (int order = 0; order < max_orders; ++order) {
       const double rise = sine / cosine;
       const auto hit = site.reflecting_wall(from, from + farthest_m * glm::dvec3(along, rise), last);
-      const double plan_m = hit ? hit->distance_m : farthest_m;
+      const double plan_m = hit ? hit->distance_m : farthest_m,
+                   free_m = has_ceilings ? to_ceiling_m(site.terrain(), from, along, rise, plan_m) : plan_m;
       if (order == 0) area_m2 += std::numbers::pi * plan_m * plan_m / (headings * slopes);
       const glm::dvec3 to = from + plan_m * glm::dvec3(along, rise);
       const double leg_m = plan_m / cosine;
-      // A ray that leaves over the roof has stayed in the place for a part of its leg.
-      const double within_m = !hit ? 0.0
+      // A ray that leaves over the roof, or is lost at a ceiling, has stayed in the place for a part of its
+      // leg.
+      const double within_m = free_m < plan_m ? free_m / cosine
+                              : !hit          ? 0.0
                               : to.z <= hit->top_z
                                   ? leg_m
                                   : leg_m * std::clamp((hit->top_z - from.z) / (to.z - from.z), 0.0, 1.0);
       if (order > first_order) rays.add(kept, travelled_m, within_m, order == first_order + 1);
       if (!hit) break;
       if (order == 0) height_m += std::max(hit->top_z - ground, 0.0), ++walls;
-      if (to.z > hit->top_z) break;
+      if (free_m < plan_m || to.z > hit->top_z) break;
       travelled_m += leg_m, kept *= 1.0 - propagation::facade_absorption;
       from = to, along = site.turned_by(hit->wall, along), last = hit->wall;
     }

@@ -63,12 +63,15 @@ Result<OscMessage> decode(std::string_view packet) {
 }
 
 Result<std::string> encode(const OscMessage& message) {
+  constexpr double max_whole = 2147483647.0;
   const Message written(lo_message_new());
   for (std::size_t i = 0; i < message.numbers.size(); ++i)
-    if (message.texts[i].empty())
-      lo_message_add_float(lo_message(written.get()), float(message.numbers[i]));
-    else
+    if (const double number = message.numbers[i]; !message.texts[i].empty())
       lo_message_add_string(lo_message(written.get()), message.texts[i].c_str());
+    else if (number == std::trunc(number) && std::abs(number) < max_whole)
+      lo_message_add_int32(lo_message(written.get()), std::int32_t(number));
+    else
+      lo_message_add_float(lo_message(written.get()), float(number));
   if (!message.blob.empty()) {
     const lo_blob blob = lo_blob_new(std::int32_t(message.blob.size()), message.blob.data());
     lo_message_add_blob(lo_message(written.get()), blob);

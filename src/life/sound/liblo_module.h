@@ -21,7 +21,7 @@ struct OscMessage {
 struct LibloFunctions {
   /// Errors say what is no message; bundles are none.
   Result<OscMessage> (*decode)(std::string_view packet);
-  /// Numbers as floats, texts as strings.
+  /// Whole numbers as 32-bit integers, which floats would round beyond 2^24; others as floats.
   Result<std::string> (*encode)(const OscMessage& message);
 };
 

@@ -103,14 +103,7 @@ void SceneSounds::add_placed(const scene::Scene& scene, double step_s, std::vect
     for (double& level : power) level += sound.level_db;
     emitters.push_back({id, sound.kind, position, power, sound.recording});
   }
-  for (const propagation::NoiseSource& source : scene.items<propagation::NoiseSource>()) {
-    const std::vector<glm::dvec3> places = source.places(max_piece_m);
-    Octaves power = source.power_db;
-    for (double& level : power) level -= 10.0 * std::log10(double(places.size()));
-    for (const glm::dvec3& place : places)
-      emitters.push_back({id_of("noise source", emitters.size()), SoundKind::fountain, place, power});
-  }
-  // Fountains that no node has given a sound.
+  // Fountains that no node has given a sound; noise sources, which sound alike, come after them.
   for (const scene::Object& object : scene.objects) {
     if (!object.is_visible || object.is_dynamic || !is_fountain(object.name)) continue;
     const glm::dvec3 water = place_of(object, {0, 0, float(fountain_m)});
@@ -120,6 +113,13 @@ void SceneSounds::add_placed(const scene::Scene& scene, double step_s, std::vect
         }))
       emitters.push_back(
           {id_of(object.name, 3), SoundKind::fountain, water, power_db(SoundKind::fountain, 0.0)});
+  }
+  for (const propagation::NoiseSource& source : scene.items<propagation::NoiseSource>()) {
+    const auto pieces = source.pieces(max_piece_m);
+    Octaves power = source.power_db;
+    for (double& level : power) level -= 10.0 * std::log10(double(pieces.size()));
+    for (const auto& [middle, half] : pieces)
+      emitters.push_back({id_of("noise source", emitters.size()), SoundKind::fountain, middle, power});
   }
 }
 

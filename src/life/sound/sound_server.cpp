@@ -46,7 +46,9 @@ Result<Datagrams> Datagrams::connect(const std::string& host_and_port) {
                                                                  host_and_port.substr(colon + 1), false);
   if (!to) return error("{}: there is no such place for a sound server; expected HOST:PORT", host_and_port);
   Datagrams result(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  if (result.socket_ < 0) return error("no socket can be opened ({})", std::strerror(errno));
+  // Connected, it takes no packets of others.
+  if (result.socket_ < 0 || ::connect(result.socket_, to->ai_addr, to->ai_addrlen) != 0)
+    return error("{}: no socket can be opened for it ({})", host_and_port, std::strerror(errno));
   result.peer_.assign(reinterpret_cast<const char*>(to->ai_addr), to->ai_addrlen);
   return result;
 }
@@ -94,15 +96,30 @@ int Datagrams::port() const {
 }
 
 std::shared_ptr<const Recording> SentRecordings::find(const std::string& file, double now_s) {
+  keep_read();
+  read_next();
   std::erase_if(files_, [&](const auto& it) {
     return now_s - it.second.used_s > forgotten_s && !it.second.read.valid();
   });
-  if (!files_.contains(file) && files_.size() >= max_files) return nullptr;
+  if (!files_.contains(file) && files_.size() >= max_files) {
+    if (!std::exchange(is_full_, true))
+      message_ = fmt::format("the client has more than {} recordings; some are not heard", max_files);
+    return nullptr;
+  }
+  if (files_.size() < max_files) is_full_ = false;
   File& sent = files_[file];
   sent.used_s = now_s;
-  if (!sent.read.valid() || sent.read.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-    return sent.recording;
+  return sent.recording;
+}
+
+/// Keeps the recording that has been read meanwhile.
+void SentRecordings::keep_read() {
+  const auto found = std::ranges::find_if(files_, [](const auto& it) { return it.second.read.valid(); });
+  if (found == files_.end()) return;
+  File& sent = found->second;
+  if (sent.read.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   Result<Recording> read = sent.read.get();
+  sent.bytes = {};
   double total_s = read ? read->length_s() : 0.0;
   for (const auto& [name, other] : files_) total_s += other.recording ? other.recording->length_s() : 0.0;
   if (read && total_s <= max_total_s) {
@@ -113,7 +130,22 @@ std::shared_ptr<const Recording> SentRecordings::find(const std::string& file, d
                                   max_total_s)
                     : to_string(read.errors());
   }
-  return sent.recording;
+}
+
+/// Begins to read a recording that has come whole, where none is being read.
+void SentRecordings::read_next() {
+  if (std::ranges::any_of(files_, [](const auto& it) { return it.second.read.valid(); })) return;
+  const auto next = std::ranges::find_if(
+      files_, [](const auto& it) { return it.second.missing == 0 && !it.second.bytes.empty(); });
+  if (next == files_.end()) return;
+  // The file stays where it is, with its bytes, while it is being read.
+  next->second.read = std::async(std::launch::async, [&bytes = next->second.bytes]() -> Result<Recording> {
+    try {
+      return decode_recording(bytes, "the client's recording");
+    } catch (const std::exception& exception) {
+      return error("the client's recording cannot be read ({})", exception.what());
+    }
+  });
 }
 
 Status SentRecordings::take(const OscMessage& part) {
@@ -123,10 +155,14 @@ Status SentRecordings::take(const OscMessage& part) {
   File& file = found->second;
   const std::size_t index = number(1), size = number(2), parts = (size + part_bytes - 1) / part_bytes;
   if (size == 0 || size > max_recording_bytes || index >= parts ||
-      part.blob.size() != std::min(part_bytes, size - index * part_bytes) ||
-      (!file.has.empty() && size != file.bytes.size()))
+      part.blob.size() != std::min(part_bytes, size - index * part_bytes))
     return error("/parvis/part: part {} of {} bytes has {}", index, size, part.blob.size());
-  if (file.recording || file.is_bad || file.read.valid()) return Ok{};  // it has come twice
+  if (file.missing == 0) return Ok{};  // it has come twice
+  const auto begin_anew = [&] { file.missing = 1, file.bytes = {}, file.has.clear(); };
+  if (!file.has.empty() && size != file.bytes.size()) {
+    begin_anew();
+    return error("/parvis/part: a part of {} bytes of all comes after those of another size", size);
+  }
   std::size_t coming = size;
   for (const auto& [name, other] : files_) coming += other.bytes.size();
   if (file.has.empty() && coming > max_bytes)
@@ -137,13 +173,11 @@ Status SentRecordings::take(const OscMessage& part) {
   file.has[index] = true;
   if (--file.missing > 0) return Ok{};
   file.has.clear();
-  if (name_of_recording(file.bytes) != found->first) {  // parts of different files: from the begin
-    file.missing = 1, file.bytes.clear();
+  if (name_of_recording(file.bytes) != found->first) {  // parts of different files
+    begin_anew();
     return error("/parvis/part: the bytes are not those of the recording");
   }
-  file.read = std::async(std::launch::async, [bytes = std::exchange(file.bytes, {})] {
-    return decode_recording(bytes, "the client's recording");
-  });
+  read_next();
   return Ok{};
 }
 

@@ -28,7 +28,7 @@ class Datagrams {
  public:
   /// Waits for packets at a port of this machine; of all its addresses only where `is_public`.
   static Result<Datagrams> listen(int port, bool is_public);
-  /// Sends to HOST:PORT.
+  /// Sends to HOST:PORT, and takes packets from there alone.
   static Result<Datagrams> connect(const std::string& host_and_port);
   Datagrams(Datagrams&& other) noexcept;
   Datagrams& operator=(Datagrams&&) = delete;
@@ -62,7 +62,8 @@ class SentRecordings {
 
   /// The recording, where all of it has come; else it is asked for from now on.
   std::shared_ptr<const Recording> find(const std::string& file, double now_s);
-  /// Takes a part. Errors: nobody asked for it, or it does not fit.
+  /// Takes a part. Errors: nobody asked for it, or it does not fit; where it is of another size than those
+  /// before it, all are asked for again.
   Status take(const OscMessage& part);
   /// Messages to send to the client now, some times in a second.
   std::vector<std::string> wanted(double now_s);
@@ -72,15 +73,19 @@ class SentRecordings {
  private:
   struct File {
     double used_s = 0.0;
-    std::string bytes;
-    std::vector<bool> has;    ///< parts; empty: none has come
-    std::size_t missing = 1;  ///< parts
-    std::future<Result<Recording>> read;
+    std::string bytes;                    ///< until it is read
+    std::vector<bool> has;                ///< parts; empty: none has come, or all have
+    std::size_t missing = 1;              ///< parts
+    std::future<Result<Recording>> read;  ///< from `bytes`; of one file at a time
     std::shared_ptr<const Recording> recording;
     bool is_bad = false;
   };
+  void keep_read();
+  void read_next();
+
   std::map<std::string, File> files_;
   std::string message_;
+  bool is_full_ = false;
 };
 
 /// The state of a server, from packets; the network is elsewhere.

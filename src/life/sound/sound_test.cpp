@@ -10,6 +10,8 @@
 
 #include "base/files.h"
 #include "base/test_folder.h"
+#include "capture/trees/scene_tree.h"
+#include "life/propagation/noise_source.h"
 #include "life/sound/listening.h"
 #include "life/sound/openal_module.h"
 #include "life/sound/playback.h"
@@ -484,6 +486,19 @@ TEST(Server, PlaysSoundsUntilTheClientIsGone) {
   EXPECT_TRUE(pong->starts_with("/parvis/pong"));
 }
 
+TEST(Server, SizesBeyondTheWholeNumbersOfFloatsArriveUnchanged) {
+  const std::string large((std::size_t(1) << 24) + 1, 'x');
+  const std::size_t last = large.size() / part_bytes;
+  const Result<std::string> packet =
+      liblo.call(&LibloFunctions::encode, part_of(name_of_recording(large), large, last));
+  ASSERT_TRUE(packet) << to_string(packet.errors());
+  const Result<OscMessage> read = liblo.call(&LibloFunctions::decode, *packet);
+  ASSERT_TRUE(read) << to_string(read.errors());
+  EXPECT_EQ(read->numbers[1], double(last));
+  EXPECT_EQ(read->numbers[2], double(large.size()));
+  EXPECT_EQ(read->blob.size(), 1u);
+}
+
 /// Encoded, taken by the server.
 Result<std::string> given_to(ServedSounds& served, const OscMessage& message, double now_s) {
   return served.take(*liblo.call(&LibloFunctions::encode, message), now_s);
@@ -521,6 +536,15 @@ TEST(Server, AsksForRecordingsThatItLacksAndPlaysThem) {
   EXPECT_TRUE(served.recordings().wanted(now_s).empty());
   EXPECT_TRUE(served.beds(now_s + 3.0).empty()) << "the client has vanished";
 
+  // A part that claims another size holds nothing up: all are asked for again.
+  const std::string whole(3000, 'y'), other = name_of_recording(whole);
+  ASSERT_TRUE(given_to(served, {"/parvis/bed", {0.0, 0.5}, {other, ""}}, now_s));
+  EXPECT_TRUE(served.beds(now_s).size() <= 1u);
+  EXPECT_TRUE(given_to(served, part_of(other, whole + std::string(2000, 'y'), 0), now_s));
+  EXPECT_FALSE(given_to(served, part_of(other, whole, 0), now_s));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(given_to(served, part_of(other, whole, i), now_s));
+  EXPECT_TRUE(served.recordings().wanted(now_s).empty()) << "it has come whole";
+
   // What is no sound, or does not fit, is refused and said.
   const std::string text(3000, 'x'), bad = name_of_recording(text);
   ASSERT_TRUE(given_to(served, {"/parvis/bed", {0.0, 0.5}, {bad, ""}}, now_s));
@@ -547,6 +571,12 @@ TEST(Server, PacketsGoBothWaysOverLoopback) {
   EXPECT_EQ(server->receive(2000), "hello");
   server->send("hello yourself");
   EXPECT_EQ(client->receive(2000), "hello yourself");
+  Result<Datagrams> stranger = Datagrams::connect(fmt::format("127.0.0.1:{}", client->port()));
+  ASSERT_TRUE(stranger);
+  stranger->send("to me");
+  EXPECT_EQ(client->receive(50), "");
+  client->send("hello again");
+  EXPECT_EQ(server->receive(2000), "hello again") << "the stranger has not taken the client over";
   EXPECT_FALSE(Datagrams::connect("nowhere"));
 }
 
@@ -622,6 +652,14 @@ TEST(LateField, OfAnArcadeIsThatBelowItsCeiling) {
   EXPECT_LT(below.decay_s[4], 0.2) << "one side is open";
   EXPECT_GT(below.reach_m, 2.0);
   EXPECT_EQ(covered_about(narrow, {0, -5, 1.7}, 1, air).energy[4], 0.0) << "under the sky";
+  // Before it, rays that enter it do not rise through its ceiling: less comes back than from its back wall
+  // under the sky.
+  std::vector<propagation::Wall> street = walls;
+  street.push_back({{-60, -12}, {60, -12}, 12, 12, absorption});
+  const Plain plain;
+  const propagation::Site before(low, street), without_ceiling(plain, street);
+  EXPECT_LT(enclosure_about(before, {0, -5, 1.7}, 1, air).energy[4],
+            enclosure_about(without_ceiling, {0, -5, 1.7}, 1, air).energy[4]);
 }
 
 class SoundNodeTest : public scene::ScriptTest<> {
@@ -690,6 +728,14 @@ TEST_F(SoundNodeTest, PeopleTreesAndFountainsSoundByThemselves) {
   add("fountain", {5, 0, 0}), add("fountain bench", {60, 0, 0});
   for (int i = 1; i <= 6; ++i) add("person " + std::to_string(i), {0, float(i % 2), 0});
   add("person 7", {500, 0, 0});
+  trees::TreeLevels levels;
+  levels.foot = glm::vec3(0.0f), levels.box.max = {2, 2, 8};
+  for (const float x : {10.0f, 500.0f}) {
+    trees::SceneTree tree;
+    tree.tree = std::make_shared<const trees::TreeLevels>(levels);
+    tree.world_from_tree[3].x = x;
+    scene.data<trees::SceneTrees>().add(std::move(tree), 0);
+  }
   scene.objects.back().is_visible = true;
   SceneSounds sounds;
   sounds.at(scene, 0.02, glm::dvec3(0.0));
@@ -700,6 +746,17 @@ TEST_F(SoundNodeTest, PeopleTreesAndFountainsSoundByThemselves) {
   EXPECT_EQ(count(SoundKind::footsteps), 1) << "one walks";
   EXPECT_GE(count(SoundKind::murmur), 1);
   EXPECT_LE(count(SoundKind::murmur), 6);
+  ASSERT_EQ(count(SoundKind::leaves), 1) << "one tree is near";
+  const auto leaves = std::ranges::find(emitters, SoundKind::leaves, &Emitter::kind);
+  EXPECT_NEAR(leaves->position.x, 10.0, 1e-6);
+  EXPECT_NEAR(leaves->position.z, 5.6, 1e-5) << "in its crown";
+
+  // A fan beside the fountain sounds, too.
+  propagation::NoiseSource fan;
+  fan.line = {{8, 0, 3}}, fan.power_db.fill(60.0);
+  scene.data<scene::ItemsOf<propagation::NoiseSource>>().add(fan, 0);
+  const std::vector<Emitter> with_fan = SceneSounds().at(scene, 0.02, glm::dvec3(0.0));
+  EXPECT_EQ(std::ranges::count(with_fan, SoundKind::fountain, &Emitter::kind), 2);
 }
 
 }  // namespace

@@ -57,10 +57,12 @@ void add_facades(const propagation::Site& site, const NoiseOptions& options, Noi
         if (!is_outside || at.x < map.corner.x || at.y < map.corner.y || at.x > high.x || at.y > high.y)
           continue;
         const double ground = site.terrain().ground_z(at);
-        for (int floor = 0; ground + 1.5 + floor * options.floor_m < wall.top_a; ++floor)
-          map.receivers.push_back({Place(at, ground + 1.5 + floor * options.floor_m), out, int(w), floor,
-                                   length_m / count,
+        for (int floor = 0; ground + 1.5 + floor * options.floor_m < wall.top_a; ++floor) {
+          const Place place(at, ground + 1.5 + floor * options.floor_m);
+          if (place.z < wall.bottom) continue;  // the open mouth of an arcade
+          map.receivers.push_back({place, out, int(w), floor, length_m / count,
                                    std::min(options.floor_m, wall.top_a - ground - floor * options.floor_m)});
+        }
       }
     }
   }

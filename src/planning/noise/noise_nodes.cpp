@@ -1,4 +1,6 @@
 // trafficCount: how many vehicles pass on a road, for noise. noiseSource: what else makes noise.
+#include <algorithm>
+
 #include "base/registries.h"
 #include "life/propagation/noise_source.h"
 #include "planning/noise/noise_map_node.h"
@@ -76,10 +78,19 @@ scene::NodeSchema source_schema() {
 }
 
 void build_source(const scene::Node& node, scene::SceneBuilder& builder) {
+  constexpr float same_point_m = 1e-3f, max_source_m = 10'000.0f;  // each piece of it costs time
   propagation::NoiseSource source;
   for (const glm::vec3& point : node.points("path"))
     source.line.emplace_back(builder.world_from_parent() * glm::vec4(point, 1.0f));
-  source.line = scene::without_repeats(source.line);
+  // Repeats in space, not in plan: a line may stand upright.
+  const auto repeats = std::ranges::unique(
+      source.line, [](glm::vec3 a, glm::vec3 b) { return glm::distance(a, b) < same_point_m; });
+  source.line.erase(repeats.begin(), repeats.end());
+  if (const float length_m = source.line.size() > 1 ? scene::MeasuredPath(source.line).length() : 0.0f;
+      !(length_m <= max_source_m))
+    return builder.fail(error_at(node.where_of("path"),
+                                 "noiseSource: a line of {:g} m; expected at most {:.0f} m", length_m,
+                                 max_source_m));
   const std::vector<double> levels = scene::parse_numbers(node.text("power_db"));
   const auto is_level = [](double level) { return level >= -50.0 && level <= 160.0; };
   if (source.line.empty() || (levels.size() != 1 && levels.size() != propagation::octaves) ||

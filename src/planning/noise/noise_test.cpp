@@ -144,6 +144,23 @@ TEST(Map, ANoiseSourceCountsWhileItSoundsAndWithoutRoads) {
   ASSERT_TRUE(line);
   EXPECT_NEAR(line->levels.front().lday, near.lday, 0.3);
   EXPECT_EQ(multiplied(line->sources, 2.0), line->sources.power) << "a factor of the roads' traffic";
+  // Its pieces have their lengths, by which near ones are divided.
+  const auto pieces = road_sources(other, 4.0);
+  ASSERT_TRUE(pieces && pieces->patches.size() == 3u);
+  for (const SourcePatch& patch : pieces->patches) EXPECT_NEAR(patch.length_m(), 10.0 / 3.0, 1e-5);
+}
+
+TEST(Map, ANoiseSourceHidesNoTrafficThatCountsNowhere) {
+  scene::Scene scene = with_road();
+  propagation::NoiseSource fan;
+  fan.line = {{0, 0, 3}}, fan.power_db.fill(80.0), fan.hours_share = {1.0, 1.0, 1.0};
+  scene.data<scene::ItemsOf<propagation::NoiseSource>>().add(fan, 0);
+  TrafficCount count;
+  count.road = "misspelt";
+  scene.data<scene::ItemsOf<TrafficCount>>().add(count, 0);
+  const auto sources = road_sources(scene, 10.0);
+  ASSERT_FALSE(sources);
+  EXPECT_NE(to_string(sources.errors()).find("no road"), std::string::npos);
 }
 
 TEST(Map, TramsAreSourcesOfTheirOwn) {
@@ -205,6 +222,13 @@ TEST_F(NoiseMapNode, NoiseSourcesHaveOneLevelOrEight) {
   EXPECT_NEAR(propagation::a_weighted(scene.items<propagation::NoiseSource>()[0].power_db), 80.0, 1e-6);
   EXPECT_EQ(scene.items<propagation::NoiseSource>()[1].power_db[7], 8.0);
   EXPECT_TRUE(holds(errors_of("noiseSource(path=\"1 2 3\", power_db=\"1 2\")\n"), "one level or eight"));
+  for (const char* far : {"1e5", "1e12", "1e30"})
+    EXPECT_TRUE(holds(errors_of(fmt::format("noiseSource(path=\"0 0 0, {} 0 0\", power_db=80)\n", far)),
+                      "at most 10000"));
+  const scene::Scene upright = scene_of("noiseSource(path=\"12 4 0, 12 4 0, 12 4 8\", power_db=80)\n");
+  const auto& pipe = upright.items<propagation::NoiseSource>()[0];
+  EXPECT_EQ(pipe.line.size(), 2u);
+  EXPECT_EQ(pipe.pieces(4.0).size(), 2u);
   EXPECT_TRUE(holds(errors_of("noiseSource(path=\"1 2 3\", power_db=900)\n"), "-50 to 160"));
   EXPECT_TRUE(holds(errors_of("noiseSource(path=\"1 2 3\", power_db=80, hours=\"2 0 0\")\n"), "fractions"));
 }

@@ -186,14 +186,14 @@ void add_trams(const tram::TramLine& line, double patch_m, RoadSources& sources)
 }
 
 void add_noise_source(const propagation::NoiseSource& source, double patch_m, RoadSources& sources) {
-  const std::vector<glm::dvec3> places = source.places(patch_m);
+  const auto pieces = source.pieces(patch_m);
   PatchPower power{};
   for (std::size_t p = 0; p < periods; ++p)
     for (std::size_t band = 0; band < propagation::octaves; ++band)
       power[p][band] =
-          source.hours_share[p] * propagation::energy(source.power_db[band]) / double(places.size());
-  for (const glm::dvec3& place : places) {
-    sources.patches.push_back({.middle = place, .lane = -1, .height_m = -1.0});
+          source.hours_share[p] * propagation::energy(source.power_db[band]) / double(pieces.size());
+  for (const auto& [middle, half] : pieces) {
+    sources.patches.push_back({.middle = middle, .half = half, .lane = -1, .height_m = -1.0});
     sources.power.push_back(power);
   }
 }
@@ -222,7 +222,10 @@ Result<RoadSources> road_sources(const scene::Scene& scene, double patch_m) {
   for (const propagation::NoiseSource& source : scene.items<propagation::NoiseSource>())
     add_noise_source(source, patch_m, others);
   const Result<std::vector<LaneTraffic>> lanes = traffic_of(scene);
-  if (!lanes) return others.patches.empty() ? Result<RoadSources>(lanes.errors()) : std::move(others);
+  const bool has_figures =
+      !scene.items<TrafficCount>().empty() || scene.data<traffic::TrafficDemand>().vehicles > 0;
+  if (!lanes && (has_figures || others.patches.empty())) return lanes.errors();
+  if (!lanes) return others;
   RoadSources sources;
   sources.is_driven = scene.items<TrafficCount>().empty();
   for (std::size_t i = 0; i < lanes->size(); ++i) {

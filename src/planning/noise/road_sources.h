@@ -32,8 +32,8 @@ struct RoadSources {
   bool has_trams = false;         ///< then levels are indicative: no standard has plain trams
 };
 
-/// Patches of `patch_m` at most. Errors, where nothing else makes noise: no roads; neither trafficCount nor
-/// traffic.
+/// Patches of `patch_m` at most. Errors: trafficCount or traffic that counts on no road; neither of them,
+/// where nothing else makes noise.
 Result<RoadSources> road_sources(const scene::Scene& scene, double patch_m);
 
 /// The power of the same patches where so many times as many vehicles drive on each road; trams keep their
