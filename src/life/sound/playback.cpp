@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 
 namespace parvis::sound {
 namespace {
@@ -24,6 +25,26 @@ HeardSound glided(const HeardSound& from, const HeardSound& to, double part) {
   for (std::size_t band = 0; band < octaves; ++band)
     result.energy[band] = std::lerp(from.energy[band], to.energy[band], part);
   return result;
+}
+
+/// Adds beds whose gains go evenly from those of the last moment to these: what begins or ends does not
+/// click.
+void add_beds(std::span<const Bed> last, std::span<const Bed> beds, double now_s, Buffers channels) {
+  struct Glide {
+    float from = 0.0f, to = 0.0f;
+  };
+  std::map<std::shared_ptr<const Recording>, Glide> gains;
+  for (const Bed& bed : last) gains[bed.recording].from += bed.gain;
+  for (const Bed& bed : beds) gains[bed.recording].to += bed.gain;
+  for (const auto& [recording, gain] : gains) {
+    std::array<std::vector<float>, 2> samples{std::vector<float>(device_moment, 0.0f),
+                                              std::vector<float>(device_moment, 0.0f)};
+    Bed{recording, 1.0f}.add(now_s, std::array{std::span(samples[0]), std::span(samples[1])});
+    for (std::size_t channel = 0; channel < samples.size(); ++channel)
+      for (std::size_t i = 0; i < device_moment; ++i)
+        channels[channel][i] +=
+            samples[channel][i] * std::lerp(gain.from, gain.to, float(i) / float(device_moment));
+  }
 }
 
 }  // namespace
@@ -117,6 +138,7 @@ void Playback::run() {
   std::unique_ptr<Device> device;
   bool has_failed = false;
   float bed_gain = 0.0f;
+  std::vector<Bed> last_beds;
   for (std::unique_lock lock(mutex_); !ends_; lock.lock()) {
     if (!device) {
       lock.unlock();
@@ -134,7 +156,7 @@ void Playback::run() {
     }
     const double now_s = double(++moments_) * device_moment_s;
     std::vector<HeardSound> sounds = sounds_at(now_s);
-    const std::vector<Bed> beds = beds_;
+    std::vector<Bed> beds = beds_;
     const bool is_muted = is_muted_;
     lock.unlock();
     const auto began = std::chrono::steady_clock::now();
@@ -146,7 +168,8 @@ void Playback::run() {
     const std::span<const Stream> streams = mixer.premix(sounds, device_moment);
     std::array<std::vector<float>, 2> channels{std::vector<float>(device_moment, 0.0f),
                                                std::vector<float>(device_moment, 0.0f)};
-    for (const Bed& bed : beds) bed.add(now_s, std::array{std::span(channels[0]), std::span(channels[1])});
+    add_beds(last_beds, beds, now_s, std::array{std::span(channels[0]), std::span(channels[1])});
+    last_beds = std::move(beds);
     const float next_gain = is_muted ? 0.0f : float(std::sqrt(gain_));
     for (std::vector<float>& channel : channels)
       for (std::size_t i = 0; i < channel.size(); ++i)

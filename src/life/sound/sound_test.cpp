@@ -414,6 +414,50 @@ TEST(Playback, ADeviceThatGoesAwayIsAMessageAndIsOpenedAgain) {
   EXPECT_GT(playback.moments(), 5u);
 }
 
+/// A device that keeps what comes to its left channel by itself.
+class KeepingDevice final : public Device {
+ public:
+  explicit KeepingDevice(std::vector<float>& kept) : kept_(kept) {}
+  Status play(std::span<const Stream>, const std::array<std::span<const float>, 2>& channels) override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    kept_.insert(kept_.end(), channels[0].begin(), channels[0].end());
+    return Ok{};
+  }
+
+ private:
+  std::vector<float>& kept_;
+};
+
+TEST(Playback, BedsBeginAndEndWithoutAClick) {
+  Recording recording;
+  recording.left.assign(4800, 0.5f), recording.right = recording.left;
+  const Bed bed{std::make_shared<const Recording>(recording), 1.0f};
+  std::vector<float> heard;
+  {
+    Playback playback(
+        [&heard](std::size_t) -> Result<std::unique_ptr<Device>> {
+          return std::unique_ptr<Device>(std::make_unique<KeepingDevice>(heard));
+        },
+        0.0);
+    const auto play_some = [&] {
+      const std::size_t until = playback.moments() + 4;
+      for (int i = 0; i < 2000 && playback.moments() < until; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    };
+    play_some();
+    playback.update({}, {bed}, 0.1);
+    play_some();
+    playback.update({}, {}, 0.2);
+    play_some();
+  }
+  float largest_step = 0.0f;
+  for (std::size_t i = 1; i < heard.size(); ++i)
+    largest_step = std::max(largest_step, std::abs(heard[i] - heard[i - 1]));
+  EXPECT_EQ(*std::ranges::max_element(heard), 0.5f);
+  EXPECT_EQ(heard.back(), 0.0f);
+  EXPECT_LT(largest_step, 0.01f);
+}
+
 TEST(Devices, FilesHoldWhatWasPlayedAndTheNullDeviceTakesTime) {
   const TestFolder folder;
   const std::string file = (folder.path() / "played.wav").string();
