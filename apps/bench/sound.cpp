@@ -247,6 +247,7 @@ void measure_server(Report& report) {
   Random random{48};
   sound::ServedSounds served;
   int sound_packets = 0, taken = 0, unchecked = 0;
+  std::size_t max_heard = 0, max_wanted = 0;
   for (int i = 1; i <= packets; ++i) {
     // Sounds are what can do harm: every second packet.
     std::string packet = whole[random.chance(0.5f) ? 0 : std::size_t(random.index(int(whole.size())))];
@@ -259,15 +260,20 @@ void measure_server(Report& report) {
     if (i % checked_each != 0) continue;
     const std::vector<sound::HeardSound> heard = served.heard(now_s);
     const std::vector<sound::Bed> beds = served.beds(now_s);
+    const std::size_t wanted = served.recordings().wanted(now_s).size();
+    max_heard = std::max(max_heard, heard.size()), max_wanted = std::max(max_wanted, wanted);
     const bool is_sound =
         heard.size() <= sound::ServedSounds::max_sounds && beds.size() <= sound::ServedSounds::max_beds &&
-        served.recordings().wanted(now_s).size() <= sound::SentRecordings::max_files &&
+        wanted <= sound::SentRecordings::max_files &&
         std::ranges::all_of(heard, [](const sound::HeardSound& it) {
           return std::isfinite(it.emitted_s) && std::abs(glm::length(it.direction) - 1.0f) < 1e-3f &&
                  std::ranges::all_of(it.energy, [](double e) { return e >= 0.0 && e < 1e6; });
         });
     sound_packets += is_sound ? checked_each : 0;
   }
+  if (taken < packets / 100 || max_heard == 0 || max_wanted == 0)
+    fail("of {} packets the server took {}, heard {} sounds and asked for {} recordings: it was not tried",
+         packets, taken, max_heard, max_wanted);
   report.note(fmt::format("{} packets, {} of them messages", packets, taken));
   report.add("osc_packets_fuzzed", sound_packets);
   report.add("osc_packets_fuzzed_unchecked", unchecked);
