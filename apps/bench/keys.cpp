@@ -17,8 +17,8 @@ constexpr Key keys[]{
     {"triangles", "", {}, "static triangles of the paper city"},
     {"pass_times_off_frame_percent", "%", maximum(10.0), "paper city, 1280x720, eight frames: the passes' times together against the frame by the clock, the worst", {{"pass_times_off_frame_percent_without_the_longest"}}},
     // start
-    {"start_over_f3d", "", maximum(0.8), "the paper city's glTF file, 1280x720, one camera: parvis render over f3d 1.3.1, in turn, medians; control: f3d's longest over its shortest", {{"start_over_f3d_of_f3d"}}},
-    {"peak_memory_over_f3d", "", maximum(1.0), "the same: most memory of all processes at one moment", {{"peak_memory_over_f3d_of_16_times_the_pixels"}}},
+    {"start_over_f3d", "", maximum(0.8), "the paper city's glTF file, 1280x720, one camera: parvis render over f3d 1.3.1, in turn, medians; control: of 16 times the pixels", {{"start_over_f3d_of_16_times_the_pixels"}}},
+    {"peak_memory_over_f3d", "", maximum(1.0), "the same: most memory of all processes of each program at one moment, without the display's", {{"peak_memory_over_f3d_of_16_times_the_pixels"}}},
     {"peak_memory_over_today", "", maximum(0.5), "render of the paper's day, 1280x720, over 1.63 GB, which 4bfb91ea took", {{"peak_memory_over_today_of_16_times_the_pixels"}}},
     {"first_window_picture_s", "s", maximum(3.0), "view of the baked paper city on a virtual display, to its end after one frame, median; control: after a hundred", {{"first_window_picture_s_of_100_frames"}}},
     // commands

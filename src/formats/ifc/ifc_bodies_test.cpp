@@ -374,6 +374,24 @@ TEST(IfcBodies, FacesLieOnSpheres) {
   const ReadIfc cupola = read_text(one_object("IFCROOF", shell + edges));
   EXPECT_EQ(cupola.warnings, "");
   EXPECT_NEAR(volume_m3(*cupola.model), 2.0 / 3.0 * pi, chords * 2.0 / 3.0 * pi) << "of a surface model";
+  // An eighth, whose axis is turned by less than a millionth: its corner is the pole for all that.
+  const std::string eighth = R"(#41=IFCCARTESIANPOINT((0.,1.,0.));
+#42=IFCVERTEXPOINT(#41);
+#43=IFCDIRECTION((0.,1.,0.));
+#44=IFCAXIS2PLACEMENT3D(#3,#69,#43);
+#45=IFCCIRCLE(#44,1.);
+#46=IFCEDGECURVE(#65,#42,#71,.T.);
+#47=IFCEDGECURVE(#42,#67,#45,.T.);
+#48=IFCORIENTEDEDGE(*,*,#46,.T.);
+#49=IFCORIENTEDEDGE(*,*,#47,.T.);
+#50=IFCDIRECTION((4.E-7,4.E-7,1.));
+#51=IFCAXIS2PLACEMENT3D(#3,#50,#69);
+)";
+  shell = shell_of({one_loop + "#{n}1=IFCSPHERICALSURFACE(#51,1.);\n#{n}3=IFCEDGELOOP((#48,#49,#78));\n"});
+  shell.replace(shell.find("#40=IFCADVANCEDBREP(#60)"), 24, "#40=IFCSHELLBASEDSURFACEMODEL((#60))");
+  const ReadIfc corner = read_text(one_object("IFCROOF", shell + edges + eighth));
+  EXPECT_EQ(corner.warnings, "");
+  EXPECT_NEAR(volume_m3(*corner.model), pi / 6.0, chords * pi / 6.0) << "a corner on the pole";
   const std::string cone = one_loop + R"(#{n}1=IFCSURFACEOFREVOLUTION(#80,#70,#81);
 #{n}3=IFCEDGELOOP((#75));
 #80=IFCARBITRARYOPENPROFILEDEF(.CURVE.,$,#82);
@@ -419,6 +437,61 @@ TEST(IfcBodies, FacesLieOnTori) {
   const std::vector<std::string> ends = {one_loop + "#{n}1=IFCPLANE(#66);\n#{n}3=IFCEDGELOOP((#80));\n",
                                          one_loop + "#{n}1=IFCPLANE(#67);\n#{n}3=IFCEDGELOOP((#83));\n"};
   EXPECT_NEAR(volume_of_shell(edges, {pipe, ends[0], ends[1]}), 0.25 * pi * pi, chords * 0.25 * pi * pi);
+  // The same by a circle that turns, within one loop, which runs along the seam and back below it.
+  const std::string turned = one_loop + R"(#{n}1=IFCSURFACEOFREVOLUTION(#41,#66,#42);
+#{n}3=IFCEDGELOOP((#81,#50,#82,#51));
+#41=IFCARBITRARYCLOSEDPROFILEDEF(.CURVE.,$,#43);
+#42=IFCAXIS1PLACEMENT(#44,#63);
+#43=IFCCIRCLE(#45,0.5);
+#44=IFCCARTESIANPOINT((-2.,0.,0.));
+#45=IFCAXIS2PLACEMENT2D(#46,$);
+#46=IFCCARTESIANPOINT((0.,0.));
+)";
+  std::string seam = R"(#47=IFCCIRCLE(#4,2.5);
+#48=IFCEDGECURVE(#72,#73,#47,.T.);
+#50=IFCORIENTEDEDGE(*,*,#48,.T.);
+#51=IFCORIENTEDEDGE(*,*,#48,.F.);
+)";
+  EXPECT_NEAR(volume_of_shell(edges + seam, {turned, ends[0], ends[1]}), 0.25 * pi * pi,
+              4.0 * chords * 0.25 * pi * pi);
+  // A hole above the seam in the ring that runs below it, and the face that fills the hole.
+  auto corner = [&, number = 52](double u, double v) mutable {
+    const double radius = 2.0 + 0.5 * std::cos(v);
+    seam += fmt::format("#{}=IFCCARTESIANPOINT(({},{},{}));\n", number++, radius * std::cos(u),
+                        radius * std::sin(u), 0.5 * std::sin(v));
+  };
+  corner(0.5, 0.5), corner(1.0, 0.5), corner(1.0, 1.0), corner(0.5, 1.0);
+  const std::string torus = one_loop + "#{n}1=IFCTOROIDALSURFACE(#4,2.,0.5);\n#{n}3=";
+  std::string holed = torus + "IFCEDGELOOP((#81,#50,#82,#51));\n#{n}4=IFCFACEBOUND(#{n}5,.T.);\n" +
+                      "#{n}5=IFCPOLYLOOP((#52,#55,#54,#53));\n";
+  holed.replace(holed.find("((#{n}2)"), 8, "((#{n}2,#{n}4)");
+  const std::string filling = torus + "IFCPOLYLOOP((#52,#53,#54,#55));\n";
+  EXPECT_NEAR(volume_of_shell(edges + seam, {holed, filling, ends[0], ends[1]}), 0.25 * pi * pi,
+              chords * 0.25 * pi * pi);
+}
+
+TEST(IfcBodies, EdgesAreAnyPieceOfAClosedCurve) {
+  // A pyramid of 1 m: two edges bound its floor, the shorter one within a side of the square that they lie
+  // on.
+  const std::string edges = R"(#61=IFCCARTESIANPOINT((1.,0.,0.));
+#62=IFCCARTESIANPOINT((1.,1.,0.));
+#63=IFCCARTESIANPOINT((0.,1.,0.));
+#64=IFCCARTESIANPOINT((0.5,0.5,1.));
+#65=IFCCARTESIANPOINT((0.1,0.,0.));
+#66=IFCCARTESIANPOINT((0.3,0.,0.));
+#67=IFCVERTEXPOINT(#65);
+#68=IFCVERTEXPOINT(#66);
+#69=IFCPOLYLINE((#3,#61,#62,#63,#3));
+#70=IFCEDGECURVE(#67,#68,#69,.T.);
+#71=IFCEDGECURVE(#68,#67,#69,.T.);
+#72=IFCORIENTEDEDGE(*,*,#70,.F.);
+#73=IFCORIENTEDEDGE(*,*,#71,.F.);
+)";
+  std::vector<std::string> faces = {one_loop + "#{n}1=IFCPLANE(#4);\n#{n}3=IFCEDGELOOP((#72,#73));\n"};
+  for (const char* side : {"#3,#61", "#61,#62", "#62,#63", "#63,#3"})
+    faces.push_back(std::string("#{n}0=IFCFACE((#{n}2));\n#{n}2=IFCFACEOUTERBOUND(#{n}3,.T.);\n") +
+                    "#{n}3=IFCPOLYLOOP((" + side + ",#64));\n");
+  EXPECT_NEAR(volume_of_shell(edges, faces), 1.0 / 3.0, 1e-5);
 }
 
 TEST(IfcBodies, FacesLieOnSplines) {

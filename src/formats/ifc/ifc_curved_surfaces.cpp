@@ -92,8 +92,11 @@ double nearest_on(const std::vector<Point>& line, const Point& place, bool is_cl
   return found;
 }
 
+/// The point at a number of `nearest_on`, which a closed line takes beyond its ends, too: it comes round.
 template <class Point>
-Point on_line(const std::vector<Point>& line, double at) {
+Point on_line(const std::vector<Point>& line, double at, bool is_closed) {
+  if (const double around = double(line.size() - 1); is_closed && (at < 0.0 || at > around))
+    at -= around * std::floor(at / around);
   const double i = std::clamp(std::floor(at), 0.0, double(line.size()) - 2.0);
   return glm::mix(line[std::size_t(i)], line[std::size_t(i) + 1], at - i);
 }
@@ -164,7 +167,8 @@ std::unique_ptr<CurvedSurface> revolved(const IfcSurfaceOfRevolution& surface,
     curve.emplace_back(glm::dot(point - origin, x), glm::dot(point - origin, z));
   const bool is_closed = is_ring(curve);
   auto made = std::make_unique<Revolved>(
-      dmat4x3(x, glm::cross(z, x), z, origin), [curve](double v) { return on_line(curve, v); },
+      dmat4x3(x, glm::cross(z, x), z, origin),
+      [curve, is_closed](double v) { return on_line(curve, v, is_closed); },
       [curve, is_closed](dvec2 place) { return nearest_on(curve, place, is_closed); });
   made->along[1] = along_line(curve, is_closed);
   constexpr double on_axis_m = 1e-6;
@@ -180,13 +184,14 @@ class Extruded : public CurvedSurface {
     for (const dvec3& point : line_) flat_.push_back(flattened(point));
     along[0] = along_line(line_, is_ring(line_));
   }
-  dvec3 point(dvec2 at) const override { return on_line(line_, at.x) + at.y * direction_; }
+  dvec3 point(dvec2 at) const override { return on_line(line_, at.x, is_closed()) + at.y * direction_; }
   dvec2 parameters(dvec3 point) const override {
-    const double u = nearest_on(flat_, flattened(point), along[0].period > 0.0);
-    return {u, glm::dot(point - on_line(line_, u), direction_)};
+    const double u = nearest_on(flat_, flattened(point), is_closed());
+    return {u, glm::dot(point - on_line(line_, u, is_closed()), direction_)};
   }
 
  private:
+  bool is_closed() const { return along[0].period > 0.0; }
   dvec3 flattened(dvec3 point) const { return point - glm::dot(point, direction_) * direction_; }
 
   std::vector<dvec3> line_, flat_;
@@ -226,7 +231,12 @@ class Spline : public CurvedSurface {
       const double uu = glm::dot(by_u, by_u), uv = glm::dot(by_u, by_v), vv = glm::dot(by_v, by_v);
       const double u = glm::dot(by_u, off), v = glm::dot(by_v, off), area = uu * vv - uv * uv;
       if (!(area > 1e-12 * uu * vv)) break;  // at a pole
-      const dvec2 next = glm::clamp(at + dvec2(vv * u - uv * v, uu * v - uv * u) / area, 0.0, 1.0);
+      const dvec2 step = dvec2(vv * u - uv * v, uu * v - uv * u) / area;
+      if (!std::isfinite(step.x + step.y)) break;
+      dvec2 next = at + step;
+      for (int axis = 0; axis < 2; ++axis)
+        next[axis] = along[std::size_t(axis)].period > 0.0 ? next[axis] - std::floor(next[axis])
+                                                           : std::clamp(next[axis], 0.0, 1.0);
       const double moved = glm::distance(next, at);
       at = next;
       if (moved < 1e-12) break;
@@ -257,7 +267,10 @@ class Spline : public CurvedSurface {
 
   dvec3 derivative(dvec2 at, dvec2 axis) const {
     constexpr double step = 1e-6;
-    const dvec2 before = glm::max(at - step * axis, 0.0), after = glm::min(at + step * axis, 1.0);
+    dvec2 before = at - step * axis, after = at + step * axis;
+    for (int i = 0; i < 2; ++i)
+      if (!(along[std::size_t(i)].period > 0.0))
+        before[i] = std::max(before[i], 0.0), after[i] = std::min(after[i], 1.0);
     return (point(after) - point(before)) / glm::dot(after - before, axis);
   }
   /// Does the surface begin where it ends?
@@ -301,12 +314,21 @@ struct Side {
 /// The corners of a ring as it runs on the surface, over its seams; the last one is the first again. At a
 /// pole the ring runs along the line that the pole is in the plane of parameters.
 std::vector<dvec2> unrolled(const Ring& ring, const CurvedSurface& surface, bool has_face_to_the_left) {
-  const auto pole_at = [&](double v) {  // 1: highest, -1: lowest
+  constexpr double at_pole_m = 1e-6, at_pole_of_reach = 2e-6;  // files give directions to six digits
+  const auto pole_at = [&](double v) {                         // 1: highest, -1: lowest
     if (std::abs(v - surface.poles[1]) < surface.same) return 1;
     return std::abs(v - surface.poles[0]) < surface.same ? -1 : 0;
   };
   std::vector<dvec2> places;
   for (const dvec3& corner : ring) places.push_back(surface.parameters(corner));
+  for (const double pole : surface.poles) {
+    if (!std::isfinite(pole)) continue;
+    const dvec3 place = surface.point({0.0, pole});
+    double reach = 0.0;
+    for (const dvec3& corner : ring) reach = std::max(reach, glm::distance(corner, place));
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      if (glm::distance(ring[i], place) < at_pole_m + at_pole_of_reach * reach) places[i].y = pole;
+  }
   const auto start = std::ranges::find_if(places, [&](dvec2 at) { return pole_at(at.y) == 0; });
   if (start == places.end()) return {};
   std::ranges::rotate(places, start);
@@ -335,6 +357,23 @@ std::vector<dvec2> unrolled(const Ring& ring, const CurvedSurface& surface, bool
     line.push_back(next);
   }
   return line;
+}
+
+/// Shifts lines by whole periods of v to where the one that reaches farthest begins: a hole may lie on the
+/// other side of the seam.
+void bring_together(std::vector<std::vector<dvec2>>& lines, double period) {
+  const auto range_of = [](const std::vector<dvec2>& line) {
+    const auto [low, high] = std::ranges::minmax(line, {}, &dvec2::y);
+    return dvec2(low.y, high.y);
+  };
+  dvec2 farthest(0.0, -1.0);
+  for (const std::vector<dvec2>& line : lines)
+    if (const dvec2 range = range_of(line); range.y - range.x > farthest.y - farthest.x) farthest = range;
+  for (std::vector<dvec2>& line : lines) {
+    const dvec2 range = range_of(line);
+    const double turn = period * std::ceil((farthest.x - 0.5 * (range.x + range.y)) / period);
+    for (dvec2& place : line) place.y += turn;
+  }
 }
 
 /// Heights at which a side crosses the beginning and the end of a strip; nothing where it does not.
@@ -517,6 +556,7 @@ void add_curved_face(const std::vector<Ring>& rings, std::unique_ptr<CurvedSurfa
     surface = std::make_unique<Exchanged>(std::move(surface));
     lines = lines_on(*surface);
   }
+  if (const double period = surface->along[1].period; period > 0.0) bring_together(lines, period);
   const bool is_front = has_its_front != surface->is_seen_from_behind;
   const double around = surface->along[0].period, same = surface->same;
   std::vector<Side> sides;

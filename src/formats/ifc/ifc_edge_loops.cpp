@@ -27,6 +27,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 #include <span>
@@ -59,6 +61,19 @@ std::optional<dvec3> place_of(const std::shared_ptr<IfcVertex>& vertex, double u
             : std::nullopt;
 }
 
+/// Where along a line of points, by their number, it is nearest to a place.
+double nearest_number(const Ring& line, dvec3 place) {
+  double nearest = std::numeric_limits<double>::infinity(), found = 0.0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const dvec3 along = line[i + 1] - line[i];
+    const double squared = glm::dot(along, along);
+    const double t = squared > 0.0 ? std::clamp(glm::dot(place - line[i], along) / squared, 0.0, 1.0) : 0.0;
+    if (const double d = glm::distance(place, line[i] + t * along); d < nearest)
+      nearest = d, found = double(i) + t;
+  }
+  return found;
+}
+
 /// The points of a curved edge between its ends.
 Ring between_ends(const IfcEdgeCurve& edge, dvec3 start, dvec3 end, RepresentationConverter& converter,
                   double unit_m) {
@@ -74,23 +89,21 @@ Ring between_ends(const IfcEdgeCurve& edge, dvec3 start, dvec3 end, Representati
   Ring ring;
   for (const vec3& point : points) ring.emplace_back(point.x, point.y, point.z);
   if (ring.size() < 3) return {};
-  const auto nearest = [&](dvec3 place) {
-    return std::ranges::min_element(ring, {}, [&](dvec3 point) { return glm::distance(point, place); });
-  };
   constexpr double same_m = 1e-6;
   const bool is_closed = glm::distance(ring.front(), ring.back()) < same_m;
-  if (is_closed) {  // it begins anywhere on the curve
-    ring.pop_back();
-    if (!is_forward) std::ranges::reverse(ring);
-    std::ranges::rotate(ring, nearest(start));
-    if (glm::distance(start, end) >= same_m) ring.erase(nearest(end), ring.end());
-    return Ring(ring.begin() + 1, ring.end());
-  }
-  auto from = nearest(start), to = nearest(end);
-  const bool runs_back = from > to;
+  if (is_closed && !is_forward) std::ranges::reverse(ring);
+  const double pieces = double(ring.size() - 1);
+  double from = nearest_number(ring, start), to = nearest_number(ring, end);
+  const bool runs_back = !is_closed && from > to;
   if (runs_back) std::swap(from, to);
-  if (to - from < 2) return {};
-  Ring between(from + 1, to);
+  if (is_closed && glm::distance(start, end) < same_m) to = from + pieces;
+  if (to < from) to += pieces;  // it begins anywhere on the curve
+  Ring between;
+  for (double i = std::floor(from) + 1.0; i < to; ++i) {
+    const dvec3& point = ring[std::size_t(i < pieces ? i : i - pieces)];
+    if (glm::distance(point, start) >= same_m && glm::distance(point, end) >= same_m)
+      between.push_back(point);
+  }
   return runs_back ? reversed(std::move(between)) : between;
 }
 
