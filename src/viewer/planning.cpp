@@ -107,6 +107,11 @@ const std::vector<planner::PlanSegment>& Planning::plan_lines() {
 
 /// False: it cannot be opened, and the one that was open stays.
 bool Planning::open(const std::string& design, bool begins) {
+  if (desk_) desk_->tool.choose(planner::Mode::select);
+  if (const auto known = desks_.find(design); known != desks_.end() && !begins && !study) {
+    desk_ = known->second.get();
+    return true;
+  }
   stage::Simulation& simulation = visit_.stage().simulation();
   const auto heights = [surfaces = surfaces_](glm::dvec2 at, const design::Names& without) {
     return surfaces->resting_height(at, without);
@@ -114,7 +119,8 @@ bool Planning::open(const std::string& design, bool begins) {
   Result<design::Session> session =
       design::Session::open(simulation.scene, simulation.live(), design, heights, begins);
   if (!session) return tell(session.errors());
-  desk_ = std::make_unique<Desk>(simulation, *std::move(session), *surfaces_);
+  const std::string name = session->name();
+  desk_ = (desks_[name] = std::make_unique<Desk>(simulation, *std::move(session), *surfaces_)).get();
   desk_->tool.set_plan(plan_lines());
   if (study)
     desk_->session.set_witness(
@@ -230,13 +236,29 @@ void Planning::redo() {
     visit_.notice(word("Redo") + ": " + desk_->session.done().back().sentence);
 }
 
+/// Who opens the saved script can undo as who goes on here.
+void Planning::keep_steps_beside(const std::filesystem::path& file) {
+  const auto journal = [&](const std::filesystem::path& script) {
+    return design::journal_file(script, desk_->session.name());
+  };
+  const std::filesystem::path from = journal(visit_.scene().file);
+  std::error_code code;
+  if (std::filesystem::exists(from, code))
+    std::filesystem::copy_file(from, journal(file), std::filesystem::copy_options::overwrite_existing, code);
+  if (code)
+    visit_.notice_error(fmt::format("{}: its steps could not be kept: {}", file.string(), code.message()));
+}
+
 void Planning::save() {
   if (!desk_ || study || !keeps_files) return;
   const std::filesystem::path scene = visit_.scene().file;
   if (scene.empty()) return visit_.notice_error("this scene has no file beside which the design could lie");
-  std::filesystem::path file = design::file_of(desk_->session);
+  const std::filesystem::path own = design::file_of(desk_->session);
+  std::filesystem::path file = desk_->file.empty() ? own : desk_->file;
   if (file.empty()) file = new_file(scene, desk_->session.name());
   if (!tell(design::save(desk_->session, scene, file)) || !tell(desk_->session.note_saved())) return;
+  desk_->file = file;
+  if (file != own) keep_steps_beside(file);
   saved_at_ = time_now();
   visit_.notice(fmt::format("{} {}", word("saved"), file.filename().string()));
 }

@@ -1,7 +1,9 @@
 // A visit as a planner: the designs of the scene, the tool on one of them, and the views in which it works.
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -120,10 +122,12 @@ class Planning {
   struct Desk {
     design::Session session;
     planner::Tool tool;
+    std::filesystem::path file;  ///< in which it was saved last; empty: it was not
     Desk(stage::Simulation& simulation, design::Session opened, design::SceneSurfaces& surfaces)
         : session(std::move(opened)), tool(simulation.scene, simulation.live(), session, surfaces) {}
   };
   bool open(const std::string& design, bool begins = false);
+  void keep_steps_beside(const std::filesystem::path& file);
   std::string name_of_view(int number) const;
   const std::vector<planner::PlanSegment>& plan_lines();
 
@@ -131,8 +135,9 @@ class Planning {
   design::Language language_;
   std::shared_ptr<design::SceneSurfaces> surfaces_;
   bool is_on_ = false, waits_for_balcony_ = false;
-  std::unique_ptr<Desk> desk_;
-  std::optional<Camera> street_view_;  ///< to which one comes back
+  std::map<std::string, std::unique_ptr<Desk>> desks_;  ///< of the designs that were opened, by their names
+  Desk* desk_ = nullptr;                                ///< that of the open one
+  std::optional<Camera> street_view_;                   ///< to which one comes back
   std::vector<planner::PlanSegment> plan_lines_;
   std::string saved_at_, compared_;
   ComparedView compared_view_ = ComparedView::colours;

@@ -66,6 +66,30 @@ class PlanningTest : public SquareTest {
   std::optional<Planning> planning_;
 };
 
+TEST_F(PlanningTest, StepsOfADesignStayWhileAnotherOneIsOpen) {
+  place("kiosk", {1, -4, 0});
+  const std::string first = planning_->open_name();
+  planning_->begin_design();
+  place("bench_stone", {3, -6, 0});
+  planning_->open_design(first);
+  EXPECT_EQ(planning_->session()->done().size(), 1u) << told();
+  place("bench_stone", {-3, -6, 0});
+  planning_->save(), planning_->save();
+  const auto scripts = std::ranges::count_if(
+      std::filesystem::directory_iterator(folder_.path()),
+      [](const std::filesystem::directory_entry& each) { return each.path().extension() == ".xp"; });
+  EXPECT_EQ(scripts, 2) << "saved twice into one file: " << told();
+
+  Result<stage::Simulation> again = stage::open_simulation(
+      rooms::all_registries(), folder_.path() / fmt::format("square-{}.xp", first), {});
+  ASSERT_TRUE(again) << to_string(again.errors());
+  Result<design::Session> session = design::Session::open(again->scene, again->live(), first, {});
+  ASSERT_TRUE(session) << to_string(session.errors());
+  const auto kept = session->keep_journal(design::journal_file(again->scene.file, first));
+  ASSERT_TRUE(kept) << to_string(kept.errors());
+  EXPECT_EQ(session->done().size(), 2u) << "its steps can be undone where the saved script is opened";
+}
+
 TEST_F(PlanningTest, WhoWalksStopsAtWallsAndGoesAlongThem) {
   place("kiosk", {1, -4, 0});
   planning_->turn_on(false);

@@ -128,6 +128,21 @@ TEST_F(JournalTest, OneThatIsOfNoUseIsLeftAsItIs) {
   EXPECT_NE(refused(damaged, plain).find("damaged"), std::string::npos);
 }
 
+TEST_F(JournalTest, OneOfSavedStepsIsPutAsideWhereTheDesignWasChangedBesideIt) {
+  open("design(name=design) { }");
+  keep();
+  run("insert bench_stone 1,2");
+  EXPECT_TRUE(session_->note_saved());
+  const std::string before = *read_file(file());
+  open("design(name=design) { placed(name=a, kind=bench_stone, position=\"9 9 0\") }");
+  EXPECT_NE(keep().find("beside its journal"), std::string::npos);
+  EXPECT_EQ(*read_file(file().string() + ".1"), before);
+  run("insert bench_stone 1,2");
+  open("design(name=design) { placed(name=a, kind=bench_stone, position=\"9 9 0\") }");
+  EXPECT_NE(keep().find("had not been saved"), std::string::npos);
+  EXPECT_EQ(session_->objects().size(), 2u);
+}
+
 /// The work of a program that is killed: commands of one seed, each acknowledged by a byte when it has
 /// returned.
 [[noreturn]] void work(Session& session, int acknowledge) {

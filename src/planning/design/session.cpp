@@ -290,13 +290,32 @@ Status Session::replace_all(const std::string& base, const std::filesystem::path
   return Ok{};
 }
 
+Status Session::begin_journal(const std::filesystem::path& file) {
+  Result<Journal> journal = Journal::begin(file, name_, script());
+  if (!journal) return journal.errors();
+  journal_ = *std::move(journal);
+  return Ok{};
+}
+
+/// Nothing of the steps in a journal is unsaved, and the design was changed beside it: a new journal begins.
+Result<std::string> Session::put_aside_journal(const std::filesystem::path& file) {
+  std::error_code code;
+  std::filesystem::path aside;
+  for (int number = 1; aside.empty() || std::filesystem::exists(aside, code); ++number)
+    aside = fmt::format("{}.{}", file.string(), number);
+  std::filesystem::rename(file, aside, code);
+  if (code) return error("{}: the journal cannot be put aside: {}", file.string(), code.message());
+  if (Status status = begin_journal(file); !status) return status.errors();
+  return fmt::format(
+      "the design was changed beside its journal: earlier steps, which lie in {}, cannot be undone",
+      aside.filename().string());
+}
+
 Result<std::string> Session::keep_journal(const std::filesystem::path& file) {
   const std::string now = script();
   std::error_code code;
   if (!std::filesystem::exists(file, code)) {
-    Result<Journal> journal = Journal::begin(file, name_, now);
-    if (!journal) return journal.errors();
-    journal_ = *std::move(journal);
+    if (Status status = begin_journal(file); !status) return status.errors();
     return std::string();
   }
   Result<Journal> journal = Journal::lock(file);  // first: nobody else writes from here on
@@ -310,9 +329,12 @@ Result<std::string> Session::keep_journal(const std::filesystem::path& file) {
       known.insert(entry.text), unsaved = 0;
     else
       ++unsaved;
-  if (content->name != name_ || !known.contains(hash_of(now)))
+  const bool is_known = known.contains(hash_of(now));
+  if (content->name == name_ && !is_known && unsaved == 0) return put_aside_journal(file);
+  if (content->name != name_ || !is_known)
     return error(
-        "{}: this journal is of another design, or the design was changed beside it; it is left as it is. "
+        "{}: this journal is of another design, or the design was changed beside it while it held steps that "
+        "were not saved; it is left as it is, and what is done from here on is kept only when it is saved. "
         "Move it away to begin a new one",
         file.string());
   // From the beginning: then all steps can be undone, those before the design was saved as well.

@@ -68,9 +68,11 @@ class Session {
   std::string script() const;
 
   /// Keeps a journal in `file` from now on. One that is there is replayed first where it began with this
-  /// design, or the design was saved in between: afterwards the design is as it was. Returns a sentence about
-  /// what was restored; empty: nothing. Errors: it is damaged, of a newer version, or of another design: it
-  /// is not touched then, and no journal is kept.
+  /// design, or the design was saved in between: afterwards the design is as it was. One whose steps are all
+  /// saved, of a design that was changed beside it, is put aside under another name. Returns a sentence about
+  /// what was restored or put aside; empty: nothing. Errors: it is damaged, of a newer version, of another
+  /// design, or holds unsaved steps of a design that was changed beside it: it is not touched then, and no
+  /// journal is kept.
   Result<std::string> keep_journal(const std::filesystem::path& file);
   /// Notes in the journal that the design has been saved as it is.
   Status note_saved();
@@ -80,6 +82,8 @@ class Session {
  private:
   Session(scene::Scene& scene, scene::LiveScene& live, Heights heights)
       : scene_(scene), live_(live), heights_(std::move(heights)) {}
+  Status begin_journal(const std::filesystem::path& file);
+  Result<std::string> put_aside_journal(const std::filesystem::path& file);
   Status select_by(const std::vector<std::string>& words);
   Status apply(const Changes& changes, bool forward);
   Status apply_one(const Change& change, bool forward);
