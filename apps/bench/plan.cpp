@@ -61,6 +61,15 @@ int object_named(const scene::Scene& scene, const std::string& name) {
   return int(found - scene.objects.begin());
 }
 
+/// Fails where two pictures are equal but for a few pixels.
+void expect_change(const Image8& before, const Image8& after, const char* what) {
+  constexpr int visible = 6, few = 60;  // of 255; channels
+  int changed = 0;
+  for (std::size_t i = 0; i < before.pixels.size(); ++i)
+    changed += std::abs(int(before.pixels[i]) - int(after.pixels[i])) > visible;
+  if (changed < few) fail("{} is not in its picture", what);
+}
+
 /// A place of the planner's, and what its hands took there; the slower of two places counts.
 struct Hands {
   Median drag, insertion, shadow;
@@ -130,10 +139,12 @@ void measure_insertion(stage::Stage& stage, Table& table, glm::dvec2 place, bool
       glFinish();
     };
     for (int k = 0; k < 3; ++k) show();
+    const Image8 before = i == 0 ? stage.picture() : Image8();
     const glm::dvec2 at = place + glm::dvec2(0.3 * (i % 10), 1.0 + 0.3 * (i / 10));
     const double command_ms = milliseconds(
         [&] { must(table.session.run(fmt::format("insert bollard {},{} name {}", at.x, at.y, name))); });
     held_ms.push_back(command_ms + milliseconds(show));
+    if (i == 0) expect_change(before, stage.picture(), "what was inserted");
     const auto whole = [&] { stage.draw(camera, width, height), stage.display(0), glFinish(); };
     shadow_ms.push_back(command_ms + milliseconds(whole));
     stage.hold_rate(0.0);
@@ -263,7 +274,11 @@ void measure_switches(const BenchSetup& setup, Report& report) {
       const double choice_ms =
           milliseconds([&] { must(stage->choose_scenario(to_trees ? "with trees" : "")); });
       if (is_shown("wood_1") != to_trees || is_shown("stone_1") == to_trees) fail("nothing was switched");
+      const Camera camera = eye_at(glm::dvec3(middle, 0.0) + glm::dvec3(0.14 * (step % 40), 0.0, 0.0));
       switches[std::size_t(to_trees)].push_back(choice_ms + walk_ms(*stage, {middle, 0.0}, step++));
+      const int shown = object_named(stage->scene(), to_trees ? "wood_1" : "stone_1");
+      if (i < 2 && std::ranges::count(mask_of(*stage, camera, shown).pixels, 255) < 50)
+        fail("the other design is not drawn");
       for (int k = 0; k < 3; ++k) frames.push_back(walk_ms(*stage, {middle, 0.0}, step++));
     }
     const Median there = median(switches[1]), back = median(switches[0]);

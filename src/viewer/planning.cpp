@@ -91,11 +91,13 @@ std::vector<std::string> Planning::designs() const {
 }
 
 /// Kerbs, walls and the lines of drawings, to which points are drawn. Of a large city the plan would take
-/// seconds: there points are drawn to the objects of designs alone.
+/// seconds: there points are drawn to the objects of designs alone, with a notice.
 const std::vector<planner::PlanSegment>& Planning::plan_lines() {
-  constexpr std::size_t max_triangles = 400'000;
+  constexpr std::size_t max_triangles = 1'000'000;
   std::size_t triangles = 0;
   for (const scene::Object& object : visit_.scene().objects) triangles += object.model->triangle_count();
+  if (triangles > max_triangles)
+    visit_.notice(word("so large a place: points snap to placed objects alone, not to walls and kerbs"));
   if (!plan_lines_.empty() || triangles > max_triangles) return plan_lines_;
   const plan_drawing::ScenePlan plan =
       plan_drawing::plan_of(visit_.scene(), design::placed_objects(visit_.scene(), visit_.live(), "", false));

@@ -183,6 +183,8 @@ constexpr auto french = std::to_array<std::pair<std::string_view, std::string_vi
     {"changed", "modifiés"},
     {"New", "Nouveau"},
     {"begins another design", "commence un autre projet"},
+    {"so large a place: points snap to placed objects alone, not to walls and kerbs",
+     "un lieu si grand : les points s'accrochent aux seuls objets posés, ni aux murs ni aux bordures"},
     {"a new design: what is placed from here on belongs to it",
      "un nouveau projet : ce qui est posé désormais en fait partie"},
     {"Together", "Ensemble"},
