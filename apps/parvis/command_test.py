@@ -1951,7 +1951,7 @@ class Displays(BeforeAMirror):
 
     def test_every_example_is_drawn(self):
         for example in sorted((ROOT / "scenes/displays").iterdir()):
-            if example.name == "wand.json":
+            if example.name == "wand.json" or example.suffix == ".txt":  # of a wand, and what a tracker sent
                 continue
             done = run("render", self.write_place(), "--display", example, "-o", self.folder / "out")
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -2421,7 +2421,7 @@ class Sounds(InAFolder):
         self.tone("bed.wav", 2.0)
         scene = self.write("scene.xp", 'sun()\nsound(kind="bed", file="bed.wav", level_db=20)\ncamera(name="a", position="0 -3 2")\n')
         with self.server(self.folder / "served.wav", 20) as server:
-            done = run("view", scene, *SIZE, "--frames", 150, "--sound", f"osc://127.0.0.1:{self.port_of(server)}",
+            done = run("view", scene, *SIZE, "--frames", 1200, "--sound", f"osc://127.0.0.1:{self.port_of(server)}",
                        before=["xvfb-run", "-a", "-f", str(self.folder / "Xauthority")])
             self.assertEqual(done.returncode, 0, done.stderr)
             server.send_signal(signal.SIGINT)
