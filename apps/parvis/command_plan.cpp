@@ -190,6 +190,37 @@ Status write_council_of(const Arguments& arguments, const design::Session& sessi
   return write_council(stage, session, options);
 }
 
+/// No output may be another one or an input, and a file of another kind is not written over.
+Status check_outputs(const Arguments& a) {
+  namespace fs = std::filesystem;
+  const auto whole = [](const fs::path& file) {
+    std::error_code code;
+    return fs::weakly_canonical(fs::absolute(file), code);
+  };
+  std::vector<fs::path> taken{whole(a.scene.scene)};
+  for (const fs::path* file : {&a.command_file, &a.import_json})
+    if (!file->empty()) taken.push_back(whole(*file));
+  for (const fs::path& file : a.kind_files) taken.push_back(whole(file));
+  if (!a.output.empty()) taken.push_back(whole(a.output));
+  using Output = std::pair<const fs::path*, const char*>;
+  for (const auto& [file, ending] : {Output(&a.json, ".json"),
+                                     {&a.pdf, ".pdf"},
+                                     {&a.dxf, ".dxf"},
+                                     {&a.csv, ".csv"},
+                                     {&a.council.file, ".pdf"}}) {
+    if (file->empty()) continue;
+    if (std::ranges::find(taken, whole(*file)) != taken.end())
+      return error("{}: this file is read or written by this command, too; give each a name of its own",
+                   file->string());
+    std::error_code code;
+    if (fs::exists(*file, code) && file->extension() != ending)
+      return error("{}: there is a file that is no {}, and it is left as it is; choose another name",
+                   file->string(), ending);
+    taken.push_back(whole(*file));
+  }
+  return Ok{};
+}
+
 bool asks_for_nothing(const Arguments& a) {
   return a.commands.empty() && a.kind_files.empty() && a.compared.empty() && !a.lists_objects &&
          !a.lists_kinds && !a.keeps_journal &&
@@ -245,6 +276,7 @@ Status plan(const Arguments& arguments) {
         "nothing is asked for: give commands (--do, --file), --list, --kinds, or a file to write (-o, "
         "--json, "
         "--pdf, --dxf, --csv, --council)");
+  if (Status status = check_outputs(arguments); !status) return status;
   if (Status status = arguments.scene.expect_one_scenario(); !status) return status;
   if (!arguments.council.file.empty()) {
     if (arguments.compared.empty()) return error("--council needs two designs: --design NEW --compare OLD");

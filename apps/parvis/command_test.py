@@ -981,6 +981,19 @@ class Plans(InAFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(kept.exists())
 
+    def test_no_output_takes_the_place_of_another_file(self):
+        scene = self.write("s.xp", "design(name=a) { placed(name=b, kind=bench_stone) }\n")
+        self.write("floor.obj", "v 0 0 0\n")
+        for options in [("--pdf", scene), ("--csv", self.folder / "floor.obj"), ("-o", self.folder / "x.xp", "--csv", self.folder / "x.xp"),
+                        ("--csv", self.folder / "t.csv", "--json", self.folder / "t.csv")]:
+            self.expect_failure("plan", scene, *options, words=["name"])
+
+    def test_a_surface_lies_on_the_ground_below_a_bench(self):
+        scene = self.write("s.xp", "design(name=a) { placed(name=b, kind=bench_stone, position=\"0 0 0\") }\n")
+        done = run("plan", scene, "--do", "surface paving 0,0 3,0 3,3 name s", "-o", scene)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('outline="0 0 0, 3 0 0, 3 3 0"', scene.read_text())
+
     def test_a_design_of_a_newer_version(self):
         self.expect_failure("check", self.write("new.xp", "design(name=a, version=9) { }\n"),
                             words=["version 9", "newer than this program"])

@@ -48,7 +48,7 @@ glm::vec3 Navigation::looks() const {
   return {std::cos(heading_) * std::cos(pitch_), std::sin(heading_) * std::cos(pitch_), std::sin(pitch_)};
 }
 
-void Navigation::fly_to(const Camera& camera, float seconds) {
+void Navigation::fly_to(const Camera& camera, float seconds, std::optional<Mode> arrives_in) {
   if (mode_ == Mode::plan) {  // from above the middle of what it shows
     const float height_m = plan_height_m_ / (2.0f * std::tan(0.5f * lens_.vertical_fov));
     position_.z += height_m;
@@ -71,14 +71,15 @@ void Navigation::fly_to(const Camera& camera, float seconds) {
                    lens_.vertical_fov,
                    camera,
                    0.0f,
-                   seconds};
+                   seconds,
+                   arrives_in};
 }
 
 void Navigation::step_flight(float seconds) {
   Flight& flight = *flight_;
   flight.passed_s += seconds;
   if (flight.passed_s >= flight.seconds) {
-    const Mode mode = mode_;
+    const Mode mode = flight.arrives_in.value_or(mode_);
     go_to(Camera(flight.camera));
     if (mode_ != Mode::plan) mode_ = mode;
     return;

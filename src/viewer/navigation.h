@@ -37,8 +37,9 @@ class Navigation {
   Mode mode() const { return mode_; }  ///< at present
 
   /// Goes there within `seconds`, by a way that eases in and out and keeps the horizon level; any motion of
-  /// the visitor ends it. Of a parallel camera: ends in its plan.
-  void fly_to(const Camera& camera, float seconds);
+  /// the visitor ends it. Of a parallel camera: ends in its plan. `arrives_in`: how the visitor goes on
+  /// there; not given: as at present, or flying where that is the plan.
+  void fly_to(const Camera& camera, float seconds, std::optional<Mode> arrives_in = {});
   /// Is such a flight under way?
   bool is_flying_to() const { return flight_.has_value(); }
   /// Says where a step on foot ends: none, where walls or high steps stop it. Empty: nothing stops it, and
@@ -59,6 +60,7 @@ class Navigation {
     float heading_from, heading_to, pitch_from, pitch_to, fov_from;
     Camera camera;
     float passed_s, seconds;
+    std::optional<Mode> arrives_in;
   };
 
   glm::vec3 looks() const;

@@ -8,6 +8,7 @@
 #include <glm/gtx/rotate_vector.hpp>
 #include <utility>
 
+#include "base/files.h"
 #include "graphics/reference/camera_ray.h"
 #include "planning/design/design_file.h"
 #include "planning/design/own_kind.h"
@@ -35,6 +36,12 @@ std::filesystem::path new_file(const std::filesystem::path& scene, const std::st
     std::error_code code;
     if (!std::filesystem::exists(file, code)) return file;
   }
+}
+
+/// Empty: there is no such file, or it cannot be read.
+std::string text_of(const std::filesystem::path& file) {
+  const Result<std::string> text = read_file(file);
+  return text ? *text : std::string();
 }
 
 constexpr float shoulders_m = 0.3f, max_step_m = 0.4f, max_fall_m = 1.2f;
@@ -123,6 +130,7 @@ bool Planning::open(const std::string& design, bool begins) {
   if (!session) return tell(session.errors());
   const std::string name = session->name();
   desk_ = (desks_[name] = std::make_unique<Desk>(simulation, *std::move(session), *surfaces_)).get();
+  desk_->known_text = text_of(design::file_of(desk_->session));
   desk_->tool.set_plan(plan_lines());
   if (study)
     desk_->session.set_witness(
@@ -257,12 +265,16 @@ void Planning::save() {
   if (scene.empty()) return visit_.notice_error("this scene has no file beside which the design could lie");
   const std::filesystem::path own = design::file_of(desk_->session);
   std::filesystem::path file = desk_->file.empty() ? own : desk_->file;
-  if (file.empty()) file = new_file(scene, desk_->session.name());
+  // Another program's changes are not written over.
+  const bool was_changed = !file.empty() && text_of(file) != desk_->known_text;
+  if (file.empty() || was_changed) file = new_file(scene, desk_->session.name());
   if (!tell(design::save(desk_->session, scene, file)) || !tell(desk_->session.note_saved())) return;
-  desk_->file = file;
+  desk_->file = file, desk_->known_text = text_of(file);
   if (file != own) keep_steps_beside(file);
   saved_at_ = time_now();
-  visit_.notice(fmt::format("{} {}", word("saved"), file.filename().string()));
+  visit_.notice(fmt::format(
+      "{}{} {}", was_changed ? word("the script was changed elsewhere and stays as it is:") + " " : "",
+      word("saved"), file.filename().string()));
 }
 
 void Planning::look(PlanningView view) {
@@ -272,14 +284,14 @@ void Planning::look(PlanningView view) {
   waits_for_balcony_ = view == PlanningView::balcony;
   if (view == PlanningView::balcony) return;
   if (view == PlanningView::street) {
-    if (!now.parallel) return;
-    if (street_view_) return visit_.fly_to(*street_view_);
+    if (!now.parallel && !std::exchange(is_at_wall_, false)) return;
+    if (street_view_) return visit_.fly_to(*street_view_, Mode::walk);
     const Result<Camera> first = visit_.stage().camera("");
-    if (first) visit_.fly_to(*first);
+    if (first) visit_.fly_to(*first, Mode::walk);
     return;
   }
   if (now.parallel) return;
-  street_view_ = now;
+  if (!std::exchange(is_at_wall_, false)) street_view_ = now;
   // What the eye looks at becomes the middle of the plan.
   const reference::Ray ray{now.position_in_world(), now.forward_in_world()};
   const auto seen = surfaces_->first_along(ray);
@@ -300,7 +312,8 @@ bool Planning::stand_at(const planner::Pointer& pointer) {
   waits_for_balcony_ = false;
   const glm::vec3 away = glm::normalize(glm::vec3(place->normal.x, place->normal.y, 0.0f));
   const glm::vec3 eye = glm::vec3(place->position) + stands_before_wall_m * away;
-  if (!visit_.camera().parallel) street_view_ = visit_.camera();
+  if (!visit_.camera().parallel && !std::exchange(is_at_wall_, true)) street_view_ = visit_.camera();
+  is_at_wall_ = true;
   Camera camera;
   camera.vertical_fov = glm::radians(60.0f);
   camera.world_from_camera = look_at(eye, eye + away - glm::vec3(0.0f, 0.0f, 0.35f));

@@ -123,6 +123,7 @@ class Planning {
     design::Session session;
     planner::Tool tool;
     std::filesystem::path file;  ///< in which it was saved last; empty: it was not
+    std::string known_text;      ///< of the file in which it stands, when it was opened or saved last
     Desk(stage::Simulation& simulation, design::Session opened, design::SceneSurfaces& surfaces)
         : session(std::move(opened)), tool(simulation.scene, simulation.live(), session, surfaces) {}
   };
@@ -134,7 +135,7 @@ class Planning {
   Visit& visit_;
   design::Language language_;
   std::shared_ptr<design::SceneSurfaces> surfaces_;
-  bool is_on_ = false, waits_for_balcony_ = false;
+  bool is_on_ = false, waits_for_balcony_ = false, is_at_wall_ = false;
   std::map<std::string, std::unique_ptr<Desk>> desks_;  ///< of the designs that were opened, by their names
   Desk* desk_ = nullptr;                                ///< that of the open one
   std::optional<Camera> street_view_;                   ///< to which one comes back

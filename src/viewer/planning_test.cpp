@@ -66,6 +66,41 @@ class PlanningTest : public SquareTest {
   std::optional<Planning> planning_;
 };
 
+TEST_F(PlanningTest, AScriptThatWasChangedElsewhereIsNotWrittenOver) {
+  open(std::string(square_script) + "design(name=mine) { }\n");
+  planning_.emplace(*visit_, design::Language::english);
+  planning_->turn_on(true);
+  look_from("roof");
+  place("kiosk", {1, -4, 0});
+  planning_->save();
+  const std::filesystem::path file = folder_.path() / "square.xp";
+  EXPECT_NE(read_file(file)->find("kiosk"), std::string::npos) << told();
+  folder_.write("square.xp", *read_file(file) + "camera(name=elsewhere)\n");
+  const std::string theirs = *read_file(file);
+  place("bench_stone", {3, -6, 0});
+  planning_->save();
+  EXPECT_EQ(*read_file(file), theirs);
+  EXPECT_NE(read_file(folder_.path() / "square-mine.xp")->find("bench_stone"), std::string::npos) << told();
+}
+
+TEST_F(PlanningTest, FromThePlanAndFromAWallOneComesDownToWalk) {
+  const auto look = [this](PlanningView view) {
+    planning_->look(view);
+    for (int i = 0; i < 20; ++i) wait(0.1f);
+  };
+  visit_->set_mode(Mode::walk);
+  look_from("street");
+  const glm::vec3 street = visit_->camera().position_in_world();
+  look(PlanningView::plan), look(PlanningView::street);
+  EXPECT_EQ(visit_->navigation().mode(), Mode::walk);
+  EXPECT_LT(glm::distance(visit_->camera().position_in_world(), street), 0.01f);
+  look(PlanningView::balcony);
+  ASSERT_TRUE(planning_->stand_at(at({6, 11, 5}))) << told();
+  for (int i = 0; i < 20; ++i) wait(0.1f);
+  look(PlanningView::street);
+  EXPECT_LT(glm::distance(visit_->camera().position_in_world(), street), 0.01f);
+}
+
 TEST_F(PlanningTest, StepsOfADesignStayWhileAnotherOneIsOpen) {
   place("kiosk", {1, -4, 0});
   const std::string first = planning_->open_name();

@@ -93,10 +93,10 @@ void Visit::look_from(const std::string& camera) {
   navigation_.go_to(*found);
 }
 
-void Visit::fly_to(const Camera& camera) {
+void Visit::fly_to(const Camera& camera, std::optional<Mode> arrives_in) {
   constexpr float flight_s = 1.5f;
   actions().release_view();
-  navigation_.fly_to(camera, flight_s);
+  navigation_.fly_to(camera, flight_s, arrives_in);
 }
 
 void Visit::start_tour(const std::string& name) {

@@ -59,7 +59,7 @@ class Visit {
   /// Goes to a camera of the scene by name.
   void look_from(const std::string& camera);
   /// Flies to a camera within a second and a half.
-  void fly_to(const Camera& camera);
+  void fly_to(const Camera& camera, std::optional<Mode> arrives_in = {});  ///< as Navigation::fly_to
   /// The motion of the visitor, for those who lead it.
   Navigation& navigation() { return navigation_; }
   /// Starts a tour of the scene by name; any motion of the visitor ends it.

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/known_names.h"
+#include "planning/design/design_nodes.h"
 #include "planning/design/shape_models.h"
 #include "scene/data/name_pattern.h"
 
@@ -633,7 +634,11 @@ Result<Command> resolved(const DesignView& view, Command command) {
   } else if (auto* move = std::get_if<Move>(&command)) {
     if (move->is_absolute) rest(move->by, move->names);
   } else if (auto* surface = std::get_if<Surface>(&command)) {
-    for (glm::dvec3& corner : surface->outline) rest(corner);
+    Names placed;  // the ground is covered, not what stands on it
+    if (view.design)
+      for (const Node& child : view.design->children)
+        if (child.schema->type == placed_type) placed.push_back(child.text("name"));
+    for (glm::dvec3& corner : surface->outline) rest(corner, placed);
     if (surface->name.empty()) surface->name = Draft(view).free_name("surface");
   } else if (auto* measure = std::get_if<Measure>(&command)) {
     for (glm::dvec3& point : measure->points) rest(point);

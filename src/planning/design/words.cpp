@@ -183,6 +183,8 @@ constexpr auto french = std::to_array<std::pair<std::string_view, std::string_vi
     {"changed", "modifiés"},
     {"New", "Nouveau"},
     {"begins another design", "commence un autre projet"},
+    {"the script was changed elsewhere and stays as it is:",
+     "le script a été modifié ailleurs et reste tel quel :"},
     {"so large a place: points snap to placed objects alone, not to walls and kerbs",
      "un lieu si grand : les points s'accrochent aux seuls objets posés, ni aux murs ni aux bordures"},
     {"a new design: what is placed from here on belongs to it",
