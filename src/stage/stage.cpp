@@ -194,7 +194,6 @@ void Stage::draw_held(const Camera& camera, int width, int height, const std::ve
     pass_times_.begin_frame();
   }
   below_held_ = hash.value();
-  renderer_->relight_main_view(simulation_.scene, camera);
   if (const Status status = renderer_->draw_over(held, is_held_frame_kept_); !status)
     fmt::print(stderr, "{}", to_string(status.errors()));
   pass_times_.end_pass("held things");

@@ -63,7 +63,9 @@ class Renderer {
   /// Indices of the scene objects in the main view, ascending.
   const std::vector<int>& visible_objects() const { return scene_.visible_objects(); }
   const View& main_view() const { return main_view_; }  ///< of the selected eye, as prepared last
-  /// Makes the light that of the main view again, of this camera, where a frame was begun since, for a map.
+  /// Makes the light that of the main view again, whose camera is given, where a frame was begun since.
+  /// Frames that are begun for maps of reflections leave the light of another place, without shade of what
+  /// moves.
   void relight_main_view(const scene::Scene& scene, const Camera& camera);
   /// Draws the prepared main view, with `samples_per_pixel` or one.
   void draw_main_view();
@@ -71,8 +73,8 @@ class Renderer {
   void keep_main_view() { target().keep(); }
   /// Draws the things of another, small scene over the main view that was kept, or over the one that has just
   /// been drawn: hidden where it hides them, in its light, casting shadows on each other alone. The objects
-  /// of `held` are those of the last call, and new ones behind them. See
-  /// `relight_main_view`. Fails only if a shader does; the view is as it was then.
+  /// of `held` are those of the last call, and new ones behind them. Fails only if a shader does; the view is
+  /// as it was then.
   Status draw_over(const scene::Scene& held, bool is_kept);
   /// Draws a view for another room, for example a cube face: linear radiance, with sky.
   void draw_view(const View& view);

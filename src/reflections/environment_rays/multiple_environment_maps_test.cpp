@@ -264,6 +264,30 @@ TEST_F(EnvironmentMapsTest, EachEyeOfAFrameGetsTheMapsThatItLooksInto) {
   EXPECT_EQ(seen_first(std::array{first, second}), seen_first(std::array{first}));
 }
 
+TEST_F(EnvironmentMapsTest, MapsThatAreDrawnBehindAFrameLeaveItsLight) {
+  scene::Scene scene = tower_square();
+  Result<std::unique_ptr<render::Renderer>> renderer =
+      render::Renderer::create(scene, {}, light::sun_and_sky);
+  ASSERT_TRUE(renderer) << to_string(renderer.errors());
+  const auto reflections = make_multiple_environment_maps(scene, **renderer);
+  ASSERT_TRUE(reflections) << to_string(reflections.errors());
+  (*reflections)->prefer_rate();
+  ASSERT_TRUE((*renderer)->set_reflection(reflections->get()));
+  Camera camera;
+  camera.world_from_camera = look_at({-2.5f, -3.5f, 2.2f}, {1.5f, 0.5f, 1.6f});
+  const auto shade = [&] {
+    const shading::BodyShade& bodies = *(*renderer)->drawn_light().body_shade;
+    return std::string(reinterpret_cast<const char*>(&bodies), sizeof(bodies));
+  };
+  ASSERT_TRUE(methods::draw_frame(**renderer, scene, reflections->get(), {camera, test_width, test_height}));
+  EXPECT_GT((*renderer)->frames_begun(), 2) << "a map is drawn behind the frame";
+  const std::string left = shade();
+  (*renderer)->begin_still_frame(scene, camera);
+  EXPECT_NE(shade(), left);
+  (*renderer)->begin_frame(scene, camera);
+  EXPECT_EQ(shade(), left);
+}
+
 TEST_F(EnvironmentMapsTest, ABudgetTakesDetailAwayButNeverTheReflection) {
   scene::Scene scene = tower_square();
   const int mirror = int(scene.objects.size()) - 1;
