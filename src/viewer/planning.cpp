@@ -89,6 +89,8 @@ Planning::Planning(Visit& visit, design::Language language)
   visit_.navigation().on_foot = [surfaces = surfaces_](glm::vec3 from, glm::vec3 to) {
     return step_on_foot(*surfaces, from, to);
   };
+  for (const scene::Node* node : design::designs_of(visit_.live()))
+    known_.try_emplace(node->where.file, text_of(node->where.file));
 }
 
 std::vector<std::string> Planning::designs() const {
@@ -130,7 +132,6 @@ bool Planning::open(const std::string& design, bool begins) {
   if (!session) return tell(session.errors());
   const std::string name = session->name();
   desk_ = (desks_[name] = std::make_unique<Desk>(simulation, *std::move(session), *surfaces_)).get();
-  desk_->known_text = text_of(design::file_of(desk_->session));
   desk_->tool.set_plan(plan_lines());
   if (study)
     desk_->session.set_witness(
@@ -266,10 +267,10 @@ void Planning::save() {
   const std::filesystem::path own = design::file_of(desk_->session);
   std::filesystem::path file = desk_->file.empty() ? own : desk_->file;
   // Another program's changes are not written over.
-  const bool was_changed = !file.empty() && text_of(file) != desk_->known_text;
+  const bool was_changed = !file.empty() && text_of(file) != known_[file];
   if (file.empty() || was_changed) file = new_file(scene, desk_->session.name());
   if (!tell(design::save(desk_->session, scene, file)) || !tell(desk_->session.note_saved())) return;
-  desk_->file = file, desk_->known_text = text_of(file);
+  desk_->file = file, known_[file] = text_of(file);
   if (file != own) keep_steps_beside(file);
   saved_at_ = time_now();
   visit_.notice(fmt::format(
@@ -284,14 +285,16 @@ void Planning::look(PlanningView view) {
   waits_for_balcony_ = view == PlanningView::balcony;
   if (view == PlanningView::balcony) return;
   if (view == PlanningView::street) {
-    if (!now.parallel && !std::exchange(is_at_wall_, false)) return;
+    if (!now.parallel && !stands_at_wall()) return;
+    stood_at_wall_ = false;
     if (street_view_) return visit_.fly_to(*street_view_, Mode::walk);
     const Result<Camera> first = visit_.stage().camera("");
     if (first) visit_.fly_to(*first, Mode::walk);
     return;
   }
   if (now.parallel) return;
-  if (!std::exchange(is_at_wall_, false)) street_view_ = now;
+  if (!stands_at_wall()) street_view_ = now;
+  stood_at_wall_ = false;
   // What the eye looks at becomes the middle of the plan.
   const reference::Ray ray{now.position_in_world(), now.forward_in_world()};
   const auto seen = surfaces_->first_along(ray);
@@ -312,8 +315,8 @@ bool Planning::stand_at(const planner::Pointer& pointer) {
   waits_for_balcony_ = false;
   const glm::vec3 away = glm::normalize(glm::vec3(place->normal.x, place->normal.y, 0.0f));
   const glm::vec3 eye = glm::vec3(place->position) + stands_before_wall_m * away;
-  if (!visit_.camera().parallel && !std::exchange(is_at_wall_, true)) street_view_ = visit_.camera();
-  is_at_wall_ = true;
+  if (!visit_.camera().parallel && !stands_at_wall()) street_view_ = visit_.camera();
+  stood_at_wall_ = true;
   Camera camera;
   camera.vertical_fov = glm::radians(60.0f);
   camera.world_from_camera = look_at(eye, eye + away - glm::vec3(0.0f, 0.0f, 0.35f));

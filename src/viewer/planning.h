@@ -123,11 +123,11 @@ class Planning {
     design::Session session;
     planner::Tool tool;
     std::filesystem::path file;  ///< in which it was saved last; empty: it was not
-    std::string known_text;      ///< of the file in which it stands, when it was opened or saved last
     Desk(stage::Simulation& simulation, design::Session opened, design::SceneSurfaces& surfaces)
         : session(std::move(opened)), tool(simulation.scene, simulation.live(), session, surfaces) {}
   };
   bool open(const std::string& design, bool begins = false);
+  bool stands_at_wall() const { return stood_at_wall_ && visit_.navigation().mode() == Mode::fly; }
   void keep_steps_beside(const std::filesystem::path& file);
   std::string name_of_view(int number) const;
   const std::vector<planner::PlanSegment>& plan_lines();
@@ -135,10 +135,12 @@ class Planning {
   Visit& visit_;
   design::Language language_;
   std::shared_ptr<design::SceneSurfaces> surfaces_;
-  bool is_on_ = false, waits_for_balcony_ = false, is_at_wall_ = false;
+  bool is_on_ = false, waits_for_balcony_ = false, stood_at_wall_ = false;
   std::map<std::string, std::unique_ptr<Desk>> desks_;  ///< of the designs that were opened, by their names
   Desk* desk_ = nullptr;                                ///< that of the open one
-  std::optional<Camera> street_view_;                   ///< to which one comes back
+  std::map<std::filesystem::path, std::string>
+      known_;                          ///< scripts of designs, as they were loaded or saved last
+  std::optional<Camera> street_view_;  ///< to which one comes back
   std::vector<planner::PlanSegment> plan_lines_;
   std::string saved_at_, compared_;
   ComparedView compared_view_ = ComparedView::colours;

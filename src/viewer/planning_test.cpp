@@ -67,7 +67,7 @@ class PlanningTest : public SquareTest {
 };
 
 TEST_F(PlanningTest, AScriptThatWasChangedElsewhereIsNotWrittenOver) {
-  open(std::string(square_script) + "design(name=mine) { }\n");
+  open(std::string(square_script) + "design(name=mine) { }\ndesign(name=yours) { }\n");
   planning_.emplace(*visit_, design::Language::english);
   planning_->turn_on(true);
   look_from("roof");
@@ -75,6 +75,12 @@ TEST_F(PlanningTest, AScriptThatWasChangedElsewhereIsNotWrittenOver) {
   planning_->save();
   const std::filesystem::path file = folder_.path() / "square.xp";
   EXPECT_NE(read_file(file)->find("kiosk"), std::string::npos) << told();
+  planning_->open_design("yours");
+  place("umbrella", {4, -7, 0});
+  planning_->save();
+  EXPECT_NE(read_file(file)->find("umbrella"), std::string::npos)
+      << "what was saved here is known: " << told();
+  planning_->open_design("mine");
   folder_.write("square.xp", *read_file(file) + "camera(name=elsewhere)\n");
   const std::string theirs = *read_file(file);
   place("bench_stone", {3, -6, 0});
