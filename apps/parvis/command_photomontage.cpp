@@ -225,7 +225,8 @@ Status write_montage_report(const MontageArguments& arguments, const photomontag
 Status make_photomontage(const MontageArguments& arguments) {
   if (Status status = arguments.scene.expect_one_scenario(); !status) return status;
   std::vector<std::filesystem::path> files{arguments.photograph, arguments.output};
-  for (const std::filesystem::path& each : {arguments.in_front, arguments.report})
+  for (const std::filesystem::path& each :
+       {arguments.points, arguments.cameras, arguments.in_front, arguments.report})
     if (!each.empty()) files.push_back(each);
   if (Status status = stage::check_different(files); !status) return status;
   const Result<photographs::PictureHeader> header = photographs::read_picture_header(arguments.photograph);

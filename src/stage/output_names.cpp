@@ -64,7 +64,7 @@ Status check_different(const std::vector<fs::path>& files) {
   std::set<fs::path> known;
   for (const fs::path& file : files)
     if (!known.insert(file.lexically_normal()).second)
-      return error("{}: two of the pictures would have this file; give each a name of its own",
+      return error("{}: two files of this command would be this one; give each a name of its own",
                    file.string());
   return Ok{};
 }

@@ -17,7 +17,7 @@ namespace parvis::stage {
 std::vector<std::filesystem::path> series_files(const std::filesystem::path& output, char joint,
                                                 const std::vector<std::string>& names);
 
-/// Error: two of the files are one. For the pictures of one command.
+/// Error: two of the files, read or written by one command, are one.
 Status check_different(const std::vector<std::filesystem::path>& files);
 
 /// `file` with `ending` after its extension (PICTURE.png.checkpoint). Where that is longer than names may be

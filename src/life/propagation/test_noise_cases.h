@@ -17,7 +17,7 @@ struct CaseResult {
   bool finds_corners = true;        ///< the search for lateral paths finds the corners that the case names
 };
 
-/// All cases of iso_tr_17534_4.json; in air that is warmer by `warmer_c` than theirs, as a control.
+/// All cases of iso_tr_17534_4.json. The air is warmer than theirs by `warmer_c`, as a control.
 std::vector<CaseResult> compute_cases(const std::filesystem::path& folder, double warmer_c = 0.0);
 
 /// A count of values that agree, and what does not.
@@ -27,8 +27,8 @@ struct Matches {
   std::string differing;
 };
 
-/// Printed figures of ISO 9613-2's table 2 (air_absorption.csv), within one unit of the last printed digit;
-/// in air that is warmer by `warmer_c`, as a control.
+/// Printed figures of ISO 9613-2's table 2 (air_absorption.csv), within one unit of the last printed digit.
+/// The air is warmer than its by `warmer_c`, as a control.
 Matches compare_air_table(const std::filesystem::path& folder, double warmer_c = 0.0);
 /// The checks of road_emission_2015_checks.json within its tolerance; `key`: "checks" or "further_checks".
 Matches compare_road_checks(const std::filesystem::path& folder, const char* key, double warmer_c = 0.0);

@@ -70,9 +70,9 @@ class Session {
   /// Keeps a journal in `file` from now on. One that is there is replayed first where it began with this
   /// design, or the design was saved in between: afterwards the design is as it was. One whose steps are all
   /// saved, of a design that was changed beside it, is put aside under another name. Returns a sentence about
-  /// what was restored or put aside; empty: nothing. Errors: it is damaged, of a newer version, of another
-  /// design, or holds unsaved steps of a design that was changed beside it: it is not touched then, and no
-  /// journal is kept.
+  /// the steps that were restored or put aside; empty: none. Errors: it is damaged, of a newer version, of
+  /// another design, or holds unsaved steps of a design that was changed beside it: it is not touched then,
+  /// and no journal is kept.
   Result<std::string> keep_journal(const std::filesystem::path& file);
   /// Notes in the journal that the design has been saved as it is.
   Status note_saved();

@@ -69,7 +69,7 @@ void add_facades(const propagation::Site& site, const NoiseOptions& options, Noi
 }
 
 /// The source's place on the scene's ground: lanes lie on paving, which the ground's raster may not follow.
-/// What has a height of its own keeps it.
+/// A source with a height of its own keeps it.
 Place on_ground(Place source, double height_m, const propagation::SceneTerrain& terrain) {
   constexpr double bridge_m = 2.0;
   const double ground = terrain.ground_z(glm::dvec2(source));
