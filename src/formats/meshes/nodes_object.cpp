@@ -16,7 +16,7 @@ NodeSchema object_schema() {
       .attributes =
           {text("name", "by which other nodes refer to it"), file("file", "the model file").required(),
            flag("grab", "a visitor may move it: it stands in nothing that is computed once").by_default("0"),
-           flag("wall", "it stops visitors who walk, in the thesis's system; here they walk through")
+           flag("wall", "it stops visitors who walk, in the thesis's system; here all that stands does")
                .by_default("0")},
       .stands_in = {top_level, "group", "scenario"},
       .example = "object(file=\"duck.glb\", grab=1, wall=0)"};
