@@ -194,6 +194,7 @@ void Stage::draw_held(const Camera& camera, int width, int height, const std::ve
     pass_times_.begin_frame();
   }
   below_held_ = hash.value();
+  renderer_->relight_main_view(simulation_.scene, camera);
   if (const Status status = renderer_->draw_over(held, is_held_frame_kept_); !status)
     fmt::print(stderr, "{}", to_string(status.errors()));
   pass_times_.end_pass("held things");
@@ -242,6 +243,7 @@ void Stage::refine(const Camera& camera, int width, int height) {
     if (renderer_->has_one_sample() || size != glm::ivec2(renderer_->width(), renderer_->height()))
       return draw(camera, size, size);
     if (has_lines) return;
+    renderer_->relight_main_view(simulation_.scene, camera);
     refinement_ = std::make_unique<Refinement>(*kept_rays_, simulation_.scene, renderer_->sky(),
                                                renderer_->drawn_light(), camera, width, height,
                                                methods::settings(simulation_.scene).bounces);

@@ -12,7 +12,6 @@ Status draw_frame(render::Renderer& renderer, const scene::Scene& scene, Reflect
   Status status = render::draw_frame(renderer, scene, eyes, steps);
   while (status && reflections && reflections->supply(renderer, scene))
     status = render::draw_frame(renderer, scene, eyes, steps);
-  if (status) renderer.relight_main_view(scene, render::middle_of(eyes));  // a map has had its own light
   return status;
 }
 

@@ -11,7 +11,8 @@
 namespace parvis::methods {
 
 /// Renders a frame for any number of eyes. `reflections`: the method that is set in the renderer, which makes
-/// its maps for each of them; null: none is set. `steps.reflect` is ignored. Errors as render::draw_frame's.
+/// its maps for each of them; null: none is set. `steps.reflect` is ignored. A map that is drawn behind the
+/// frame leaves the light of its own place: see Renderer::relight_main_view. Errors as render::draw_frame's.
 Status draw_frame(render::Renderer& renderer, const scene::Scene& scene, Reflections* reflections,
                   std::span<const render::EyeView> eyes, render::FrameSteps steps = {});
 
