@@ -3,10 +3,12 @@
 #include <epoxy/gl.h>
 
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "base/test_data.h"
 #include "bench/own_program.h"
 #include "bench/parts.h"
+#include "life/vegetation/scene_plant.h"
 #include "planning/design/preview.h"
 #include "planning/design/scene_surfaces.h"
 #include "planning/design/test_random_commands.h"
@@ -389,15 +391,17 @@ void compare_lines(const BenchSetup& setup, Report& report) {
   report.add("sketch_edges_without_ink_percent_of_boxes_5_cm_aside", percent * double(missing_aside));
 }
 
-/// The design as its script and as the objects that are shown.
+/// The design as its script and as the objects and plants that are shown.
 std::string state_of(const Table& table) {
   std::vector<std::string> shown;
-  for (const scene::Object& object : table.simulation.scene.objects) {
-    if (!object.is_visible) continue;
-    std::string& line = shown.emplace_back(object.name);
-    for (int column = 0; column < 4; ++column)
-      for (int row = 0; row < 4; ++row) line += fmt::format(" {}", object.world_from_model[column][row]);
-  }
+  const auto add = [&](const std::string& name, const glm::mat4& placed) {
+    const float* numbers = glm::value_ptr(placed);
+    shown.push_back(fmt::format("{} {}", name, fmt::join(numbers, numbers + 16, " ")));
+  };
+  for (const scene::Object& object : table.simulation.scene.objects)
+    if (object.is_visible) add(object.name, object.world_from_model);
+  for (const vegetation::ScenePlant& plant : vegetation::scene_plants(table.simulation.scene))
+    if (plant.is_visible) add(plant.shape->kind().name, plant.world_from_plant);
   std::ranges::sort(shown);
   return fmt::format("{}{}", table.session.script(), fmt::join(shown, "\n"));
 }

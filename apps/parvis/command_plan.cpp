@@ -15,6 +15,7 @@
 #include "graphics/gl/context.h"
 #include "plan_council.h"
 #include "planning/design/design_file.h"
+#include "planning/design/design_json.h"
 #include "planning/design/difference.h"
 #include "planning/design/own_kind.h"
 #include "planning/design/scene_surfaces.h"
@@ -86,7 +87,7 @@ Result<std::vector<std::pair<std::string, int>>> lines_of(const std::filesystem:
   if (!text) return text.errors();
   std::vector<std::pair<std::string, int>> lines;
   int number = 0;
-  for (std::size_t at = 0; at < text->size();) {
+  for (std::size_t at = text->starts_with("\xEF\xBB\xBF") ? 3 : 0; at < text->size();) {
     const std::size_t end = std::min(text->find('\n', at), text->size());
     std::string line = text->substr(at, end - at);
     ++number;
@@ -113,22 +114,47 @@ struct NewFiles {
   }
 };
 
-/// Models of --kind; files that are written for them.
+/// Keeps a model as a kind of the scene; the file that is written for it.
+Result<design::OwnKind> take_kind(const Arguments& arguments, const stage::Simulation& simulation,
+                                  const std::filesystem::path& file, double unit_m, NewFiles& new_files) {
+  Result<design::OwnKind> kind =
+      design::import_kind(simulation.registries->get<formats::Readers>(), simulation.scene, file, unit_m);
+  const bool is_named_by_journal = arguments.keeps_journal;
+  if (kind && !kind->new_file.empty() && !is_named_by_journal) new_files.files.push_back(kind->new_file);
+  return kind;
+}
+
+Status import_design(const Arguments& arguments, const stage::Simulation& simulation,
+                     design::Session& session, NewFiles& new_files) {
+  if (arguments.import_json.empty()) return Ok{};
+  const Result<std::string> text = read_file(arguments.import_json, 256u << 20);
+  if (!text) return text.errors();
+  return design::read_json(*text, arguments.import_json, session, [&](const std::filesystem::path& file) {
+    return take_kind(arguments, simulation, file, design::metre, new_files);
+  });
+}
+
+/// Models of --kind.
 Status take_kinds(const Arguments& arguments, const stage::Simulation& simulation, design::Session& session,
                   NewFiles& new_files) {
   const std::map<std::string, double> units{
       {"", 0.0}, {"m", design::metre}, {"cm", design::centimetre}, {"mm", design::millimetre}};
   for (const std::filesystem::path& file : arguments.kind_files) {
     const Result<design::OwnKind> kind =
-        design::import_kind(simulation.registries->get<formats::Readers>(), simulation.scene, file,
-                            units.at(arguments.kind_unit));
+        take_kind(arguments, simulation, file, units.at(arguments.kind_unit), new_files);
     if (!kind) return kind.errors();
-    const bool is_named_by_journal = arguments.keeps_journal;
-    if (!kind->new_file.empty() && !is_named_by_journal) new_files.files.push_back(kind->new_file);
     if (Status status = session.run(design::Command(kind->command)); !status) return status;
     fmt::print("{}\n", kind->note);
   }
   return Ok{};
+}
+
+/// Does a command and prints what was done.
+Status run_command(design::Session& session, const std::string& command) {
+  const std::size_t before = session.done().size();
+  const Status status = session.run(command);
+  if (status && session.done().size() > before) fmt::print("{}\n", session.done().back().sentence);
+  return status;
 }
 
 Status run_commands(const Arguments& arguments, design::Session& session) {
@@ -136,11 +162,11 @@ Status run_commands(const Arguments& arguments, design::Session& session) {
     const auto lines = lines_of(arguments.command_file);
     if (!lines) return lines.errors();
     for (const auto& [line, number] : *lines)
-      if (Status status = session.run(line); !status)
+      if (Status status = run_command(session, line); !status)
         return error_at({arguments.command_file.string(), number, 1}, "{}", status.errors().front().message);
   }
   for (const std::string& command : arguments.commands)
-    if (Status status = session.run(command); !status)
+    if (Status status = run_command(session, command); !status)
       return error("--do \"{}\": {}", command, status.errors().front().message);
   return Ok{};
 }
@@ -242,20 +268,17 @@ Status work_on(const Arguments& arguments, stage::Simulation& simulation, stage:
     if (!restored) return restored.errors();
     if (!restored->empty()) fmt::print("{}\n", *restored);
   }
-  if (!arguments.import_json.empty()) {
-    const Result<std::string> text = read_file(arguments.import_json, 256u << 20);
-    if (!text) return text.errors();
-    if (Status status = design::read_json(*text, arguments.import_json.string(), *session); !status)
-      return status;
-  }
   NewFiles new_files;
+  if (Status status = import_design(arguments, simulation, *session, new_files); !status) return status;
   if (Status status = take_kinds(arguments, simulation, *session, new_files); !status) return status;
   if (Status status = run_commands(arguments, *session); !status) return status;
   if (arguments.lists_objects) list_objects(*session);
   if (!arguments.compared.empty())
     if (Status status = list_differences(*session, simulation, arguments.compared); !status) return status;
   if (!arguments.json.empty())
-    if (Status status = write_file(arguments.json, design::json_of(simulation.scene, *session)); !status)
+    if (Status status =
+            write_file(arguments.json, design::json_of(simulation.scene, *session, arguments.json));
+        !status)
       return status;
   if (!arguments.json.empty()) new_files.files.clear();
   if (!arguments.output.empty()) {

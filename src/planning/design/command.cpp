@@ -22,7 +22,8 @@ constexpr std::size_t max_objects = 20'000;
 /// The design's objects, as a command changes them step by step.
 class Draft {
  public:
-  explicit Draft(const DesignView& view) : view_(view) {}
+  /// `known`: heights that were found when the command was done first.
+  explicit Draft(const DesignView& view, OpenHeights known = {}) : view_(view), known_(std::move(known)) {}
 
   void fail(Error error) { errors_.push_back(std::move(error)); }
   bool has_failed() const { return !errors_.empty(); }
@@ -45,11 +46,25 @@ class Draft {
   void adds(Node node) { made_.push_back({std::nullopt, std::move(node), {}}); }
   void removes(const Node& node) { made_.push_back({node, std::nullopt, {}}); }
 
+  /// Adds the names of all that stands on the ground.
+  void add_placed(Names& names) const {
+    if (!view_.design) return;
+    for (const Node& node : view_.design->children)
+      if (node.schema->type == placed_type) names.push_back(node.text("name"));
+  }
   std::string free_name(const std::string& stem);
+  bool check_word(const std::string& name);  ///< false: it is no name, and the draft has failed
   void check_name(const std::string& name);
   double height_at(glm::dvec2 at, const Names& without = {}) const {
     return view_.resting_height ? view_.resting_height(at, without) : 0.0;
   }
+  /// The height that the command leaves open next: the known one, or what `now` finds.
+  template <class Find>
+  double open_height(const Find& now) {
+    found_.push_back(found_.size() < known_.size() ? known_[found_.size()] : now());
+    return found_.back();
+  }
+  const OpenHeights& found_heights() const { return found_; }
   bool knows_kind(const std::string& name) const { return find_kind(view_.scene, name) != nullptr; }
   const Kind* kind(const std::string& name) {
     const Kind* found = find_kind(view_.scene, name);
@@ -68,6 +83,7 @@ class Draft {
   Errors taken_places() const;
 
   const DesignView& view_;
+  OpenHeights known_, found_;
   Changes made_;
   std::set<std::string> taken_;
   std::vector<Error> errors_;
@@ -139,9 +155,14 @@ std::string Draft::free_name(const std::string& stem) {
   }
 }
 
+bool Draft::check_word(const std::string& name) {
+  if (name.find_first_of(" \t\r\n,*?\"") == std::string::npos && !name.empty()) return true;
+  fail(error("\"{}\" is no name: names have no blanks, commas, quotes, * or ?", name.substr(0, 40)));
+  return false;
+}
+
 void Draft::check_name(const std::string& name) {
-  if (name.find_first_of(" \t\r\n,*?\"") != std::string::npos || name.empty())
-    return fail(error("\"{}\" is no name: names have no blanks, commas, quotes, * or ?", name.substr(0, 40)));
+  if (!check_word(name)) return;
   if (name == "selected" || name == "all" || name == "none")
     return fail(error("\"{}\" is a word of commands and no name for an object", name));
   if (view_.live.find(name) || !taken_.insert(name).second)
@@ -165,7 +186,7 @@ void Draft::give_text(Node& node, const char* attribute, const std::string& text
 }
 
 void Draft::place(Node& node, glm::dvec3 at) {
-  if (at.z == rests) at.z = height_at(glm::dvec2(at));
+  if (at.z == rests) at.z = open_height([&] { return height_at(glm::dvec2(at)); });
   for (int axis = 0; axis < 3; ++axis)
     if (!(std::abs(at[axis]) <= max_reach_m))
       return fail(error("{:g} m is further than {:g} km from the scene's origin; check the coordinates",
@@ -395,42 +416,75 @@ struct Maker {
     draft.changes(node, std::move(after));
   }
 
-  void shift(const Node& node, glm::dvec3 by, Node& after) const {
-    if (is_placed(node)) return draft.place(after, place_of(node) + by);
+  /// Names of things that cannot carry those objects: they themselves, and for a surface all that stands on
+  /// the ground.
+  Names not_below(const std::vector<Node>& moved, bool is_ground) const {
+    Names names;
+    for (const Node& node : moved) names.push_back(name_of(node));
+    if (is_ground) draft.add_placed(names);
+    return names;
+  }
+
+  /// A place after a way to `to`: with the height of what is there, where it rested before.
+  glm::dvec3 carried(glm::dvec3 from, glm::dvec3 to, const Names& without) const {
+    constexpr double resting_m = 0.05;  // a layer of paving that was laid round it counts
+    if (to.z == rests)
+      to.z = draft.open_height([&] {
+        const bool rested = std::abs(from.z - draft.height_at(glm::dvec2(from), without)) < resting_m;
+        return rested ? draft.height_at(glm::dvec2(to), without) : from.z;
+      });
+    return to;
+  }
+
+  /// `after` stands where `node` does, `by` further.
+  void shift(const Node& node, glm::dvec3 by, const Names& without, Node& after) const {
+    const auto shifted = [&](glm::dvec3 from) {
+      return carried(from, {from.x + by.x, from.y + by.y, by.z == rests ? rests : from.z + by.z}, without);
+    };
+    if (is_placed(node)) return draft.place(after, shifted(place_of(node)));
     std::vector<glm::dvec3> moved;
-    for (const glm::vec3& point : node.points(points_of(node))) moved.push_back(exact_decimals(point) + by);
+    for (const glm::vec3& point : node.points(points_of(node)))
+      moved.push_back(shifted(exact_decimals(point)));
     draft.give(after, points_of(node), placed_points(moved));
+  }
+
+  /// Gives each object, with the names of what cannot carry it and the way, to `give`.
+  template <class Give>
+  void shift_all(const std::vector<Node>& objects, glm::dvec3 by, const Give& give) const {
+    const Names moved = not_below(objects, false);
+    const Names below = std::ranges::any_of(objects, is_surface) ? not_below(objects, true) : moved;
+    for (const Node& node : objects) give(node, is_surface(node) ? below : moved, by);
   }
 
   void operator()(const Move& c) const {
     const std::vector<Node> objects = draft.objects(c.names);
     if (objects.empty()) return;
     glm::dvec3 by = c.by;
-    const auto first = [&] {
-      return is_placed(objects.front())
-                 ? place_of(objects.front())
-                 : exact_decimals(objects.front().points(points_of(objects.front())).front());
-    };
     if (c.is_absolute) {
-      if (by.z == rests) by.z = draft.height_at(glm::dvec2(by), c.names);
-      by -= first();
+      const Node& node = objects.front();
+      const glm::dvec3 first =
+          is_placed(node) ? place_of(node) : exact_decimals(node.points(points_of(node)).front());
+      by = {by.x - first.x, by.y - first.y, by.z == rests ? rests : by.z - first.z};
     }
-    for (const Node& node : objects) {
+    shift_all(objects, by, [&](const Node& node, const Names& without, glm::dvec3 way) {
       Node after = node;
-      if (is_placed(node) && c.is_absolute && &node == &objects.front())
-        draft.place(after,
-                    {c.by.x, c.by.y,
-                     c.by.z == rests ? draft.height_at(glm::dvec2(c.by), c.names) : c.by.z});  // exactly
-      else
-        shift(node, by, after);
+      if (c.is_absolute && is_placed(node) && &node == &objects.front()) {  // exactly there
+        glm::dvec3 to = c.by;
+        if (to.z == rests) to.z = draft.open_height([&] { return draft.height_at(glm::dvec2(to), without); });
+        draft.place(after, to);
+      } else {
+        shift(node, way, without, after);
+      }
       draft.changes(node, std::move(after));
-    }
+    });
   }
 
   void operator()(const Turn& c) const {
     if (!(std::abs(c.degrees) <= 1e6)) return draft.fail(error("{:g} degrees are no turn", c.degrees));
     const double cosine = std::cos(glm::radians(-c.degrees)), sine = std::sin(glm::radians(-c.degrees));
-    for (const Node& node : draft.objects(c.names)) {
+    const std::vector<Node> objects = draft.objects(c.names);
+    const Names without = not_below(objects, false);
+    for (const Node& node : objects) {
       Node after = node;
       const auto turned = [&](glm::dvec2 at) {
         const glm::dvec2 from = at - *c.about;
@@ -448,7 +502,8 @@ struct Maker {
         double heading = c.is_absolute ? c.degrees : glm::degrees(node.number("heading_deg")) + c.degrees;
         heading = std::remainder(heading, 360.0);
         draft.give(after, "heading_deg", glm::radians(heading));
-        if (c.about) draft.place(after, glm::dvec3(turned(glm::dvec2(place_of(node))), place_of(node).z));
+        const glm::dvec3 at = place_of(node);
+        if (c.about) draft.place(after, carried(at, glm::dvec3(turned(glm::dvec2(at)), rests), without));
       }
       draft.changes(node, std::move(after));
     }
@@ -473,13 +528,14 @@ struct Maker {
   }
 
   void operator()(const Duplicate& c) const {
-    for (const Node& node : draft.objects(c.names, false)) {
-      Node copy = node;
-      draft.give(copy, "name", draft.free_name(stem_of(node)));
-      forget(copy, "locked");
-      shift(node, c.by, copy);
-      draft.adds(std::move(copy));
-    }
+    shift_all(draft.objects(c.names, false), c.by,
+              [&](const Node& node, const Names& without, glm::dvec3 by) {
+                Node copy = node;
+                draft.give(copy, "name", draft.free_name(stem_of(node)));
+                forget(copy, "locked");
+                shift(node, by, without, copy);
+                draft.adds(std::move(copy));
+              });
   }
 
   void operator()(const Row& c) const {
@@ -512,9 +568,11 @@ struct Maker {
     if (!std::ranges::all_of(objects, is_placed))
       return draft.fail(error("surfaces and measurements cannot be spaced"));
     const glm::dvec3 from = place_of(objects.front()), to = place_of(objects.back());
+    const Names without = not_below(objects, false);
     for (std::size_t i = 1; i + 1 < objects.size(); ++i) {
       Node after = objects[i];
-      draft.place(after, glm::mix(from, to, double(i) / double(objects.size() - 1)));
+      const glm::dvec3 at = glm::mix(from, to, double(i) / double(objects.size() - 1));
+      draft.place(after, carried(place_of(objects[i]), {at.x, at.y, rests}, without));
       draft.changes(objects[i], std::move(after));
     }
   }
@@ -527,12 +585,14 @@ struct Maker {
     const int axis = c.what == "x" ? 0 : c.what == "y" ? 1 : c.what == "z" ? 2 : -1;
     if (axis < 0 && c.what != "heading")
       return draft.fail(error("\"{}\": objects are aligned by x, y, z or heading", c.what.substr(0, 40)));
+    const Names without = not_below(objects, false);
     for (std::size_t i = 1; i < objects.size(); ++i) {
       Node after = objects[i];
       if (axis >= 0) {
-        glm::dvec3 at = place_of(objects[i]);
+        const glm::dvec3 before = place_of(objects[i]);
+        glm::dvec3 at(before.x, before.y, rests);
         at[axis] = place_of(objects.front())[axis];
-        draft.place(after, at);
+        draft.place(after, carried(before, at, without));
       } else {
         draft.give(after, "heading_deg", objects.front().number("heading_deg"));
       }
@@ -541,6 +601,7 @@ struct Maker {
   }
 
   void operator()(const Group& c) const {
+    if (!c.group.empty()) draft.check_word(c.group);
     for (const Node& node : c.group.empty() ? draft.members(c.names) : draft.objects(c.names)) {
       Node after = node;
       if (c.group.empty())
@@ -616,10 +677,24 @@ struct Maker {
   }
 };
 
+/// The heights of a command that has some.
+OpenHeights* heights_of(Command& command) {
+  return std::visit(
+      [](auto& c) -> OpenHeights* {
+        if constexpr (requires { c.heights; })
+          return &c.heights;
+        else
+          return nullptr;
+      },
+      command);
+}
+
 }  // namespace
 
 Result<Changes> changes_of(const DesignView& view, const Command& command, Errors* refusals) {
-  Draft draft(view);
+  Command known = command;
+  const OpenHeights* heights = heights_of(known);
+  Draft draft(view, heights ? *heights : OpenHeights());
   std::visit(Maker{draft}, command);
   return draft.finish(refusals);
 }
@@ -628,16 +703,16 @@ Result<Command> resolved(const DesignView& view, Command command) {
   const auto rest = [&](glm::dvec3& at, const Names& without = {}) {
     if (at.z == rests) at.z = view.resting_height ? view.resting_height(glm::dvec2(at), without) : 0.0;
   };
-  if (auto* insert = std::get_if<Insert>(&command)) {
+  if (OpenHeights* heights = heights_of(command)) {
+    Draft draft(view, *heights);
+    std::visit(Maker{draft}, command);
+    *heights = draft.found_heights();
+  } else if (auto* insert = std::get_if<Insert>(&command)) {
     rest(insert->position);
     if (insert->name.empty()) insert->name = Draft(view).free_name(insert->kind);
-  } else if (auto* move = std::get_if<Move>(&command)) {
-    if (move->is_absolute) rest(move->by, move->names);
   } else if (auto* surface = std::get_if<Surface>(&command)) {
     Names placed;  // the ground is covered, not what stands on it
-    if (view.design)
-      for (const Node& child : view.design->children)
-        if (child.schema->type == placed_type) placed.push_back(child.text("name"));
+    Draft(view).add_placed(placed);
     for (glm::dvec3& corner : surface->outline) rest(corner, placed);
     if (surface->name.empty()) surface->name = Draft(view).free_name("surface");
   } else if (auto* measure = std::get_if<Measure>(&command)) {

@@ -16,8 +16,13 @@ namespace parvis::design {
 /// Names of objects of the design.
 using Names = std::vector<std::string>;
 
-/// A height that is not given: the object rests on what is below it.
+/// A height that is not given: the object rests on what is below it. Of a way: what rested rests again, and
+/// what stood higher by hand keeps its height.
 inline constexpr double rests = -1e30;
+
+/// The heights that a command left open, in the order in which it asks for them, so that it does the same
+/// again in a place that has changed; empty: they are not known yet. Its text ends with "heights Z,Z,...".
+using OpenHeights = std::vector<double>;
 
 /// insert KIND X,Y[,Z] [heading DEG] [width M] [depth M] [height M] [colour #RRGGBB] [material NAME] [name
 /// NAME]
@@ -34,6 +39,7 @@ struct Move {
   Names names;
   glm::dvec3 by = glm::dvec3(0.0);
   bool is_absolute = false;  ///< `by` is where the first goes
+  OpenHeights heights = {};
 };
 /// turn NAMES by DEG [about X,Y], or to DEG
 struct Turn {
@@ -41,6 +47,7 @@ struct Turn {
   double degrees = 0.0;
   bool is_absolute = false;
   std::optional<glm::dvec2> about = {};  ///< none: each about its own foot
+  OpenHeights heights = {};
 };
 /// resize NAMES [by FACTOR] [width M] [depth M] [height M]; resize NAMES width M changes the width alone
 struct Resize {
@@ -56,6 +63,7 @@ struct Delete {
 struct Duplicate {
   Names names;
   glm::dvec3 by{0.0};
+  OpenHeights heights = {};
 };
 /// row KIND from X,Y to X,Y count N, or spacing M; [heading DEG]: without one, the fronts look across the row
 struct Row {
@@ -64,15 +72,18 @@ struct Row {
   int count = 0;           ///< 0: by the spacing
   double spacing_m = 0.0;  ///< 0: by the count
   std::optional<double> heading_deg = {};
+  OpenHeights heights = {};
 };
 /// space NAMES: evenly, between the first and the last
 struct Space {
   Names names;
+  OpenHeights heights = {};
 };
 /// align NAMES x|y|z|heading: with the first
 struct Align {
   Names names;
   std::string what;
+  OpenHeights heights = {};
 };
 /// group NAMES as NAME; ungroup NAMES
 struct Group {

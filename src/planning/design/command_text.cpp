@@ -92,6 +92,16 @@ class WordReader {
   std::string problem_;
 };
 
+/// "heights Z,Z,..." at the end of a command: heights that it left open when it was done first.
+void read_heights(WordReader& words, OpenHeights& heights) {
+  if (!words.takes("heights")) return;
+  for (const std::string& part : parts_of(words.word("heights, parted by commas"))) {
+    const std::optional<double> height = number_of(part);
+    if (!height) words.fail(fmt::format("\"{}\" is no height in m", part.substr(0, 40)));
+    heights.push_back(height.value_or(0.0));
+  }
+}
+
 struct Form {
   const char* verb;
   const char* form;
@@ -131,8 +141,8 @@ Command read_move(WordReader& words) {
   Move move{words.names()};
   move.is_absolute = words.takes("to");
   if (!move.is_absolute && !words.takes("by")) words.fail("expected \"by\" or \"to\" behind the names");
-  move.by =
-      words.place(move.is_absolute ? "where the first goes" : "how far", move.is_absolute ? rests : 0.0);
+  move.by = words.place(move.is_absolute ? "where the first goes" : "how far", rests);
+  read_heights(words, move.heights);
   return move;
 }
 
@@ -142,6 +152,7 @@ Command read_turn(WordReader& words) {
   if (!turn.is_absolute && !words.takes("by")) words.fail("expected \"by\" or \"to\" behind the names");
   turn.degrees = words.number("degrees, clockwise from above");
   if (words.takes("about")) turn.about = glm::dvec2(words.place("the middle of the turn", 0.0));
+  read_heights(words, turn.heights);
   return turn;
 }
 
@@ -171,6 +182,8 @@ Command read_row(WordReader& words) {
       row.spacing_m = words.number("metres from one to the next");
     else if (words.takes("heading"))
       row.heading_deg = words.number("degrees clockwise from north");
+    else if (words.peek() == "heights")
+      read_heights(words, row.heights);
     else
       words.fail(fmt::format("\"{}\" is no word of this command", words.peek().substr(0, 40)));
   return row;
@@ -254,15 +267,22 @@ const std::vector<Form>& forms() {
        [](WordReader& words) {
          Duplicate duplicate{words.names()};
          expect(words, "by");
-         duplicate.by = words.place("how far", 0.0);
+         duplicate.by = words.place("how far", rests);
+         read_heights(words, duplicate.heights);
          return Command(duplicate);
        }},
       {"row", "row KIND from X,Y to X,Y count N|spacing M [heading DEG]", read_row},
-      {"space", "space NAMES", [](WordReader& words) { return Command(Space{words.names()}); }},
+      {"space", "space NAMES",
+       [](WordReader& words) {
+         Space space{words.names()};
+         read_heights(words, space.heights);
+         return Command(space);
+       }},
       {"align", "align NAMES x|y|z|heading",
        [](WordReader& words) {
          Align align{words.names(), {}};
          align.what = words.word("x, y, z or heading");
+         read_heights(words, align.heights);
          return Command(align);
        }},
       {"group", "group NAMES as NAME",
@@ -340,6 +360,10 @@ std::string with(const char* word, const std::optional<double>& value) {
   return value ? fmt::format(" {} {}", word, *value) : "";
 }
 
+std::string with(const OpenHeights& heights) {
+  return heights.empty() ? "" : fmt::format(" heights {}", fmt::join(heights, ","));
+}
+
 struct Writer {
   static std::string list(const Names& names) { return fmt::format("{}", fmt::join(names, ",")); }
 
@@ -350,11 +374,12 @@ struct Writer {
            with("material", c.material) + with("name", c.name);
   }
   std::string operator()(const Move& c) const {
-    return fmt::format("move {} {} {}", list(c.names), c.is_absolute ? "to" : "by", place(c.by));
+    return fmt::format("move {} {} {}", list(c.names), c.is_absolute ? "to" : "by", place(c.by)) +
+           with(c.heights);
   }
   std::string operator()(const Turn& c) const {
     return fmt::format("turn {} {} {}", list(c.names), c.is_absolute ? "to" : "by", c.degrees) +
-           (c.about ? fmt::format(" about {},{}", c.about->x, c.about->y) : "");
+           (c.about ? fmt::format(" about {},{}", c.about->x, c.about->y) : "") + with(c.heights);
   }
   std::string operator()(const Resize& c) const {
     return fmt::format("resize {}", list(c.names)) +
@@ -363,16 +388,18 @@ struct Writer {
   }
   std::string operator()(const Delete& c) const { return "delete " + list(c.names); }
   std::string operator()(const Duplicate& c) const {
-    return fmt::format("duplicate {} by {}", list(c.names), place(c.by));
+    return fmt::format("duplicate {} by {}", list(c.names), place(c.by)) + with(c.heights);
   }
   std::string operator()(const Row& c) const {
     return fmt::format("row {} from {},{} to {},{}", c.kind, c.from.x, c.from.y, c.to.x, c.to.y) +
            (c.count != 0 ? fmt::format(" count {}", c.count) : "") +
            (c.spacing_m != 0.0 ? fmt::format(" spacing {}", c.spacing_m) : "") +
-           with("heading", c.heading_deg);
+           with("heading", c.heading_deg) + with(c.heights);
   }
-  std::string operator()(const Space& c) const { return "space " + list(c.names); }
-  std::string operator()(const Align& c) const { return fmt::format("align {} {}", list(c.names), c.what); }
+  std::string operator()(const Space& c) const { return "space " + list(c.names) + with(c.heights); }
+  std::string operator()(const Align& c) const {
+    return fmt::format("align {} {}", list(c.names), c.what) + with(c.heights);
+  }
   std::string operator()(const Group& c) const {
     return c.group.empty() ? "ungroup " + list(c.names)
                            : fmt::format("group {} as {}", list(c.names), c.group);
@@ -418,8 +445,10 @@ std::string those(const Names& names) {
 struct Teller {
   std::string operator()(const Insert& c) const { return "inserted " + (c.name.empty() ? c.kind : c.name); }
   std::string operator()(const Move& c) const {
-    return c.is_absolute ? "moved " + those(c.names)
-                         : fmt::format("moved {} by {:.2f} m", those(c.names), glm::length(c.by));
+    return c.is_absolute
+               ? "moved " + those(c.names)
+               : fmt::format("moved {} by {:.2f} m", those(c.names),
+                             glm::length(c.by.z == rests ? glm::dvec3(glm::dvec2(c.by), 0.0) : c.by));
   }
   std::string operator()(const Turn& c) const { return "turned " + those(c.names); }
   std::string operator()(const Resize& c) const { return "resized " + those(c.names); }

@@ -1,4 +1,4 @@
-// Designs as files: a script that a scene includes, and JSON (docs/design.schema.json) for other programs.
+// Designs as files: scripts that a scene includes. As JSON: design_json.h.
 #pragma once
 
 #include <filesystem>
@@ -19,13 +19,5 @@ std::filesystem::path file_of(const Session& session);
 /// there is as before then.
 Status save(const Session& session, const std::filesystem::path& scene_script,
             const std::filesystem::path& file);
-
-/// The design as JSON, after docs/design.schema.json.
-std::string json_of(const scene::Scene& scene, const Session& session);
-
-/// Inserts the objects of a design in JSON, each by a command; one whose name is taken gets the next free
-/// name of its kind. Where both are on a map, places are those of the map. Errors name the place in the file;
-/// what stands before it has been inserted.
-Status read_json(const std::string& text, const std::string& file, Session& session);
 
 }  // namespace parvis::design

@@ -11,6 +11,7 @@
 
 #include "base/files.h"
 #include "planning/design/design_file.h"
+#include "planning/design/design_json.h"
 #include "planning/design/test_design.h"
 #include "planning/design/test_random_commands.h"
 
@@ -193,15 +194,15 @@ TEST_F(JournalTest, ADesignInJsonComesBackAsItWas) {
   run("insert bench_wood 1.25,2.5 heading 30 width 2.4");
   run("insert tree_oak 7,8 height 6");
   run("surface gravel 0,0 4,0 4,4");
-  const std::string json = json_of(scene_, *session_);
+  const std::string json = json_of(scene_, *session_, "design.json");
   const std::string before = session_->script();
   open();
-  const Status status = read_json(json, "design.json", *session_);
+  const Status status = read_json(json, "design.json", *session_, {});
   ASSERT_TRUE(status) << to_string(status.errors());
-  EXPECT_EQ(json_of(scene_, *session_), json);
+  EXPECT_EQ(json_of(scene_, *session_, "design.json"), json);
   open();
   const auto refused = [&](const std::string& text) {
-    const Status read = read_json(text, "design.json", *session_);
+    const Status read = read_json(text, "design.json", *session_, {});
     return read ? "" : to_string(read.errors());
   };
   EXPECT_NE(refused(json.substr(0, json.size() / 2)).find("its end is missing"), std::string::npos);
@@ -210,6 +211,33 @@ TEST_F(JournalTest, ADesignInJsonComesBackAsItWas) {
   EXPECT_NE(refused("{\"parvis_design\": 1, \"objects\": [{\"kind\": \"bench\"}]}").find("object 1"),
             std::string::npos);
   EXPECT_NE(refused("[]").find("no design"), std::string::npos);
+  const auto refused_object = [&](const std::string& values) {
+    return refused("{\"parvis_design\":1,\"objects\":[{\"kind\":\"bollard\"," + values + "}]}");
+  };
+  EXPECT_NE(refused("{\"parvis_design\":1,\"unit\":\"cm\",\"objects\":[]}").find("convert them"),
+            std::string::npos);
+  EXPECT_NE(refused_object("\"position\":[0,0]").find("[x, y, z] in metres"), std::string::npos);
+  EXPECT_NE(refused_object("\"position\":[0,0,0],\"heading_deg\":\"90\"").find("is a number"),
+            std::string::npos);
+  EXPECT_NE(refused_object("\"position\":[0,0,0],\"locked\":\"no\"").find("true or false"),
+            std::string::npos);
+  EXPECT_NE(refused_object("\"position\":[0,0,0],\"name\":\"a\\nb\"").find("control characters"),
+            std::string::npos);
+  EXPECT_TRUE(session_->objects().empty()) << "what was refused stands nowhere";
+}
+
+TEST_F(JournalTest, JsonKeepsGroupsLocksAndViews) {
+  open();
+  run("row bollard from 0,0 to 4,0 count 3");
+  run("group bollard_1,bollard_2 as gate");
+  run("lock bollard_3");
+  run("view terrace 1,2,1.7 heading 90 pitch -5 fov 70");
+  const std::string json = json_of(scene_, *session_, "design.json");
+  open();
+  ASSERT_TRUE(read_json(json, "design.json", *session_, {}));
+  EXPECT_EQ(json_of(scene_, *session_, "design.json"), json);
+  EXPECT_NE(json.find("terrace"), std::string::npos);
+  EXPECT_NE(json.find("gate"), std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "planning/design/measurement.h"
 
-#include "planning/design/design_file.h"
+#include "planning/design/design_json.h"
 #include "planning/design/test_design.h"
 
 namespace parvis::design {
@@ -89,14 +89,14 @@ TEST_F(MeasurementTest, AScriptSaysWhereItIsWrong) {
 TEST_F(MeasurementTest, JsonKeepsThem) {
   open();
   run("measure area 0,0 4,0 4,3 name court");
-  const std::string json = json_of(scene_, *session_);
+  const std::string json = json_of(scene_, *session_, "design.json");
   const std::string before = session_->script();
   open();
-  ASSERT_TRUE(read_json(json, "a.json", *session_));
+  ASSERT_TRUE(read_json(json, "a.json", *session_, {}));
   EXPECT_EQ(session_->script(), before);
   const Status bad =
       read_json(R"({"parvis_design":1,"objects":[{"kind":"measured","measures":"area","points":[[0,0]]}]})",
-                "b.json", *session_);
+                "b.json", *session_, {});
   ASSERT_FALSE(bad);
   EXPECT_NE(bad.errors().front().message.find("[x, y, z]"), std::string::npos);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planning/design/design_file.h"
+#include "planning/design/design_json.h"
 #include "planning/design/test_design.h"
 
 namespace parvis::design {
@@ -55,6 +56,25 @@ TEST_F(OwnKindTest, TheSameModelOnceMoreIsTheSameFile) {
   EXPECT_EQ(import(file)->command.file, "kinds/seat.glb");
   box("seat.obj", 2, 1, 1);
   EXPECT_EQ(import(file)->command.file, "kinds/seat_2.glb") << "another model of the name";
+}
+
+TEST_F(OwnKindTest, JsonTakesTheModelToAnotherScene) {
+  take(box("seat.obj", 1.5, 1, 1));
+  run("insert seat 3,4");
+  const std::string json = json_of(scene_, *session_, folder_.path() / "design.json");
+  EXPECT_NE(json.find("\"file\": \"kinds/seat.glb\""), std::string::npos) << json;
+  const std::filesystem::path elsewhere = folder_.path() / "elsewhere";
+  open();
+  scene_.file = elsewhere / "scene.xp";
+  const auto take_model = [this](const std::filesystem::path& file) { return import(file); };
+  const Status status = read_json(json, folder_.path() / "design.json", *session_, take_model);
+  ASSERT_TRUE(status) << to_string(status.errors());
+  EXPECT_EQ(object("seat_1").size_m, glm::dvec3(1.5, 1.0, 1.0));
+  EXPECT_TRUE(std::filesystem::exists(elsewhere / "kinds/seat.glb"));
+  open();
+  const Status gone = read_json(json, elsewhere / "below/design.json", *session_, take_model);
+  ASSERT_FALSE(gone);
+  EXPECT_NE(gone.errors().front().message.find("put it there"), std::string::npos);
 }
 
 TEST_F(OwnKindTest, TheKindGoesWithItsStepAndIsInTheScript) {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <set>
 
 #include "base/known_names.h"
+#include "base/plan_polygon.h"
 #include "scene/data/name_pattern.h"
 #include "scene/script/node_text.h"
 
@@ -35,6 +37,21 @@ std::optional<glm::dvec2> plan_point(const std::string& word) {
   const std::vector<double> numbers = scene::parse_numbers(word);
   if (numbers.size() < 2) return std::nullopt;
   return glm::dvec2(numbers[0], numbers[1]);
+}
+
+/// " on table_1", where what has come to a place stands on another object of the design; else empty.
+std::string carrier_of(const Changes& changes, const std::vector<PlacedObject>& objects) {
+  constexpr double touching_m = 0.02;
+  if (changes.size() != 1 || !changes.front().after) return "";
+  const std::string name = changes.front().after->text("name");
+  const auto placed = std::ranges::find(objects, name, &PlacedObject::name);
+  if (placed == objects.end()) return "";
+  for (const PlacedObject& other : objects)
+    if (other.name != name && other.kind != "ground" &&
+        std::abs(other.position.z + other.size_m.z - placed->position.z) < touching_m &&
+        is_in_ring(other.outline, placed->position))
+      return " on " + other.name;
+  return "";
 }
 
 }  // namespace
@@ -182,13 +199,18 @@ Status Session::run_resolved(const Command& whole) {
   return status;
 }
 
-/// Which objects stand behind those that come and go, so that they come back where they were.
+/// Which objects stand behind those that go, so that they come back where they were: of several, the last to
+/// go is the first to come back, so that those that went before it are not there.
 void Session::note_neighbours(Changes& changes) const {
   const Node* node = design();
+  std::set<const Node*> gone;
   for (Change& change : changes) {
     if (!change.before || change.after || !node) continue;
     const Node* here = child_of(node, change.before->text("name"));
-    const Node* next = here ? live_.get().next_of(*here) : nullptr;
+    const Node* next = here;
+    do next = next ? live_.get().next_of(*next) : nullptr;
+    while (next && gone.contains(next));
+    gone.insert(here);
     if (next) change.behind = next->text("name");
   }
 }
@@ -205,7 +227,10 @@ Status Session::do_step(const Command& command) {
       made.push_back(change.after->text("name"));
   if (!made.empty()) selected_ = std::move(made);
   select(selected_);
-  done_.push_back({text_of(command), sentence_of(command), *std::move(changes)});
+  const bool comes_to_stand =
+      std::holds_alternative<Insert>(command) || std::holds_alternative<Move>(command);
+  const std::string carrier = comes_to_stand ? carrier_of(*changes, objects()) : "";
+  done_.push_back({text_of(command), sentence_of(command) + carrier, *std::move(changes)});
   undone_.clear();
   return Ok{};
 }

@@ -44,6 +44,49 @@ TEST_F(DesignTest, EveryKindOfTheCatalogueStands) {
   }
 }
 
+TEST_F(DesignTest, WhatRestsRestsAgainWhereverItGoes) {
+  double kerb_m = 0.15;
+  open("camera(name=eye)", [&](glm::dvec2 at, const Names&) { return at.x > 10.0 ? kerb_m : 0.0; });
+  run("insert bollard 8,0");
+  run("insert bollard 8,2,0.8");
+  run("move bollard_1,bollard_2 by 4,0");
+  EXPECT_EQ(object("bollard_1").position, glm::dvec3(12.0, 0.0, 0.15));
+  EXPECT_EQ(object("bollard_2").position.z, 0.8) << "a height that was given stays";
+  const std::string text = session_->done().back().text;
+  run("duplicate bollard_1 by -6,0");
+  EXPECT_EQ(object("bollard_3").position, glm::dvec3(6.0, 0.0, 0.0));
+  run("move bollard_1 by 1,0,0.5");
+  EXPECT_EQ(object("bollard_1").position.z, 0.65);
+  run("insert bench_wood 0,5");
+  run("turn bench_wood_1 by 90 about 20,5");
+  EXPECT_EQ(object("bench_wood_1").position.z, 0.15);
+  run("row planter from 5,9 to 15,9 count 3");
+  run("move planter_2 to 12,9");
+  EXPECT_EQ(object("planter_2").position.z, 0.15);
+  run("space planter_1,planter_2,planter_3");
+  EXPECT_EQ(object("planter_2").position, glm::dvec3(10.0, 9.0, 0.0));
+  run("surface gravel 0,0 4,0 4,4");
+  run("move surface_1 by 20,0");
+  EXPECT_EQ(object("surface_1").position.z, 0.15);
+  // Done again elsewhere, a step is the same.
+  kerb_m = 0.3;
+  open(
+      "design(name=d) { placed(name=bollard_1, kind=bollard, position=\"8 0 0\")\n"
+      "placed(name=bollard_2, kind=bollard, position=\"8 2 0.8\") }");
+  run(text);
+  EXPECT_EQ(object("bollard_1").position, glm::dvec3(12.0, 0.0, 0.15)) << text;
+}
+
+TEST_F(DesignTest, AStepSaysOnWhatAnObjectStands) {
+  open("camera(name=eye)", [](glm::dvec2, const Names&) { return 0.74; });
+  run("insert table 0,0,0");
+  const double top = object("table_1").size_m.z;
+  run(fmt::format("insert bin 0.1,0,{}", top));
+  EXPECT_EQ(session_->done().back().sentence, "inserted bin_1 on table_1");
+  run("insert bin 3,0,0");
+  EXPECT_EQ(session_->done().back().sentence, "inserted bin_2");
+}
+
 TEST_F(DesignTest, ViewsAreCamerasOfTheDesign) {
   open();
   run("view square_1 1,2,30 heading 90 pitch -90 parallel 24");
@@ -186,6 +229,7 @@ TEST_F(DesignTest, TextFormsAreReadAsTheSameCommand) {
                            "resize a width 3 height 1",
                            "delete a,b",
                            "duplicate a by 1,0,0",
+                           "move a,b by 1,2 heights 0.15,0",
                            "row bollard from 0,0 to 10,0 spacing 2.5 heading 0",
                            "space a,b,c",
                            "align a,b heading",

@@ -19,13 +19,13 @@ class DesignTest : public scene::ScriptTest<> {
  protected:
   DesignTest() : ScriptTest(test_registries()) {}
 
-  void open(const std::string& script = "camera(name=eye)") {
+  void open(const std::string& script = "camera(name=eye)", Session::Heights heights = {}) {
     session_.reset();
     auto loaded = ScriptTest::load(script);
     ASSERT_TRUE(loaded) << to_string(loaded.errors());
     scene_ = std::move(loaded->scene);
     live_ = scene::LiveScene(std::move(loaded->script));
-    Result<Session> session = Session::open(scene_, live_, "", {});
+    Result<Session> session = Session::open(scene_, live_, "", std::move(heights));
     ASSERT_TRUE(session) << to_string(session.errors());
     session_ = *std::move(session);
   }

@@ -191,10 +191,8 @@ glm::dvec3 Tool::first_foot() const {
 
 design::Command Tool::move_by(glm::dvec2 by) const {
   const Names& names = session_.selected();
-  if (copies_) return design::Duplicate{names, glm::dvec3(by, 0.0)};
-  if (names.size() == 1 && live_.find(names.front())->schema->type != design::measured_type)
-    return design::Move{names, glm::dvec3(glm::dvec2(anchor_) + by, design::rests), true};
-  return design::Move{names, glm::dvec3(by, 0.0)};
+  if (copies_) return design::Duplicate{names, glm::dvec3(by, design::rests)};
+  return design::Move{names, glm::dvec3(by, design::rests)};
 }
 
 /// The command that a click, or letting go, would give now.
