@@ -270,11 +270,17 @@ void Crowd::change_ground(const WalkingGround& ground, glm::vec2 low, glm::vec2 
   const float radius = 0.5f * glm::distance(low, high) + 1.0f;
   for (std::size_t i = 0; i < people_.size(); ++i) {
     PersonOnTheWay& it = people_[i];
-    // Who stands where nobody can any more steps aside.
+    // Who stands where nobody can any more steps aside, onto what lies above or below where there is no
+    // other way.
+    constexpr float aside_m = 4.0f, step_m = 0.35f;
     const glm::vec3 here(walkers_.position[i], walkers_.height_m[i]);
-    if (!it.is_away && glm::distance(glm::vec2(here), middle) < radius)
-      if (const auto place = mesh_.nearest(here, 4.0f)) walkers_.position[i] = *place;
-    if (it.destination >= 0 && !it.has_arrived) send(i, it.destination);
+    if (!it.is_away && glm::distance(glm::vec2(here), middle) < radius) {
+      std::optional<glm::vec3> place = mesh_.nearest(here, aside_m, step_m);
+      if (!place) place = mesh_.nearest(here, aside_m);
+      if (place) walkers_.position[i] = *place, walkers_.height_m[i] = place->z;
+    }
+    // Who cannot get there any more has come as far as they can, and goes elsewhere.
+    if (it.destination >= 0 && !it.has_arrived) it.has_arrived = !send(i, it.destination);
   }
 }
 

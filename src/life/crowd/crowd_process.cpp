@@ -197,6 +197,7 @@ void CrowdProcess::begin(scene::Scene& scene, action::SharedByProcesses&) {
   crowd_.emplace(*std::move(mesh));
   is_visible_ = demand.is_visible;
   if (models_.empty()) generated_.emplace(std::size_t(demand.people), demand.seed);
+  watch_.changes(scene);
   populate(demand, scene.roads);
   add_objects(scene, is_visible_);
   for (int i = 0; i < (flows_.empty() ? warm_up_steps : flow_warm_up_steps); ++i) walk();
@@ -412,8 +413,22 @@ void CrowdProcess::follow_presence() {
   }
 }
 
-void CrowdProcess::step(const scene::Scene&) {
+/// An edit of the place changes where people walk, within the next step.
+void CrowdProcess::follow_ground(const scene::Scene& scene) {
+  const Bounds changed = watch_.changes(scene);
+  const auto& demand = scene.data<CrowdDemand>();
+  const glm::vec2 reach(demand.radius_m);
+  const glm::vec2 low = glm::max(glm::vec2(changed.min), demand.centre - reach),
+                  high = glm::min(glm::vec2(changed.max), demand.centre + reach);
+  if (changed.empty() || !(low.x < high.x && low.y < high.y)) return;
+  const WalkingGround ground = ground_of(scene, demand.centre, demand.radius_m);
+  crowd_->change_ground(ground, low, high);
+  heights_ = GroundHeights(ground);
+}
+
+void CrowdProcess::step(const scene::Scene& scene) {
   if (!crowd_ || ++steps_ % clock_steps != 0) return;
+  follow_ground(scene);
   walk();
 }
 

@@ -8,6 +8,7 @@
 #include "land/roads/street_crossings.h"
 #include "life/crowd/crowd.h"
 #include "life/crowd/demand.h"
+#include "life/crowd/ground_watch.h"
 #include "life/crowd/passengers.h"
 #include "life/crowd/scene_ground.h"
 #include "life/crowd/shown_people.h"
@@ -66,6 +67,7 @@ class CrowdProcess final : public action::Process {
   void populate(const CrowdDemand& demand, const scene::RoadGraph& roads);
   void keep_company();
   void walk();
+  void follow_ground(const scene::Scene& scene);
   void come_and_go();
   void follow_presence();
   void add_flows(const CrowdDemand& demand);
@@ -80,6 +82,7 @@ class CrowdProcess final : public action::Process {
   }
 
   std::optional<Crowd> crowd_;
+  GroundWatch watch_;
   GroundHeights heights_;
   std::vector<PersonModel> models_;
   std::vector<Shown> shown_;

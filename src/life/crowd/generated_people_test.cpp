@@ -7,6 +7,7 @@
 #include <set>
 
 #include "life/crowd/crowd_process.h"
+#include "life/vegetation/scene_plant.h"
 
 namespace parvis::crowd {
 namespace {
@@ -70,6 +71,42 @@ TEST_F(GeneratedPeople, AreHiddenAndShownWhileTheyWalkOn) {
   scene_.data<CrowdDemand>().is_visible = true;
   advance(1);
   for (std::size_t p = 0; p < 5; ++p) EXPECT_TRUE(person(p)) << p;
+}
+
+TEST_F(GeneratedPeople, WalkRoundWhatIsInsertedWhileTheyWalk) {
+  begin(40);
+  const auto inside = [&](float half_m) {
+    int count = 0;
+    for (int s = 0; s < 60; ++s) {
+      advance(60);
+      for (const glm::vec2 p : process_.crowd()->walkers().position)
+        count += std::abs(p.x) < half_m && std::abs(p.y) < half_m;
+    }
+    return count;
+  };
+  ASSERT_GT(inside(2.0f), 10) << "they cross the middle";
+  scene::Object block = level_ground(2.0f);
+  block.world_from_model = glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, 1.0f));
+  scene_.objects.push_back(block);
+  advance(60);
+  EXPECT_EQ(inside(2.0f), 0);
+  scene_.objects.back().is_visible = false;  // taken away again
+  advance(60);
+  EXPECT_GT(inside(2.0f), 10);
+}
+
+TEST_F(GeneratedPeople, WalkRoundTrunks) {
+  vegetation::PlantShape shape;
+  shape.recipe = {vegetation::find_kind("oak"), 9.0f, 1.0f, 1};
+  vegetation::ScenePlant tree;
+  tree.shape = std::make_shared<const vegetation::PlantShape>(std::move(shape));
+  scene_.data<vegetation::ScenePlants>().items.push_back(tree);
+  begin(40);
+  for (int s = 0; s < 60; ++s) {
+    advance(60);
+    for (const glm::vec2 p : process_.crowd()->walkers().position)
+      EXPECT_FALSE(std::abs(p.x) < 0.3f && std::abs(p.y) < 0.3f);
+  }
 }
 
 TEST_F(GeneratedPeople, WalkWithoutAModelAndStandOnTheGround) {

@@ -362,8 +362,8 @@ std::optional<Way> NavMesh::way(glm::vec3 from, glm::vec3 to) const {
   return way;
 }
 
-std::optional<glm::vec3> NavMesh::nearest(glm::vec3 p, float reach_m) const {
-  const auto found = data_->find(p, reach_m, search_height_m);
+std::optional<glm::vec3> NavMesh::nearest(glm::vec3 p, float reach_m, float reach_z_m) const {
+  const auto found = data_->find(p, reach_m, reach_z_m);
   if (!found) return std::nullopt;
   glm::vec3 place = found->second;
   const std::array<float, 3> at = to_recast(place);

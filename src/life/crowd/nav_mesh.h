@@ -71,8 +71,9 @@ class NavMesh {
   /// Rebuilds the tiles that the box from `low` to `high` (in plan) touches, from what `ground` holds there
   /// now.
   void update(const WalkingGround& ground, glm::vec2 low, glm::vec2 high);
-  /// The place on the mesh nearest to `p`, within `reach_m` in plan; nothing where there is none.
-  std::optional<glm::vec3> nearest(glm::vec3 p, float reach_m = 1.0f) const;
+  /// The place on the mesh nearest to `p`, within `reach_m` in plan and `reach_z_m` in height; nothing where
+  /// there is none.
+  std::optional<glm::vec3> nearest(glm::vec3 p, float reach_m = 1.0f, float reach_z_m = 1.2f) const;
   /// A place beside roads on the widest ground that hangs together, all of its area alike, by three numbers
   /// in 0..1.
   glm::vec3 place(float pick, float u, float v) const;

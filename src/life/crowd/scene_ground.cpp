@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "base/bounds.h"
+#include "capture/trees/scene_tree.h"
 #include "land/roads/street_crossings.h"
+#include "life/vegetation/scene_plant.h"
 #include "scene/data/model.h"
 #include "scene/data/model_parts.h"
 #include "scene/data/surroundings.h"
@@ -58,6 +60,42 @@ void add_lane(const scene::Lane& lane, glm::vec2 centre, float radius_m, Walking
                             glm::mix(a, b, float(k + 1) / float(pieces)), lane.width_m};
       if (glm::distance(glm::vec2(strip.a), centre) < radius_m) ground.roads.push_back(strip);
     }
+  }
+}
+
+/// The sides and the top of a box that nobody walks through, in a frame of its own.
+void add_box(const glm::mat4& world_from_box, glm::vec3 low, glm::vec3 high, glm::vec2 centre, float radius_m,
+             WalkingGround& ground) {
+  const auto corner = [&](int number) {
+    const glm::vec3 p(number & 1 ? high.x : low.x, number & 2 ? high.y : low.y, number & 4 ? high.z : low.z);
+    return glm::vec3(world_from_box * glm::vec4(p, 1.0f));
+  };
+  if (!(glm::distance(glm::vec2(corner(0)), centre) < radius_m)) return;
+  constexpr std::array<std::array<int, 4>, 5> faces{
+      {{0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}, {4, 5, 7, 6}}};
+  for (const std::array<int, 4>& face : faces) {
+    for (const int k : {0, 1, 2, 0, 2, 3}) ground.corners.push_back(corner(face[std::size_t(k)]));
+    ground.kinds.insert(ground.kinds.end(), 2, GroundKind::obstacle);
+  }
+}
+
+/// Trunks and hedges; grass is walked on.
+void add_plants(const scene::Scene& scene, glm::vec2 centre, float radius_m, WalkingGround& ground) {
+  constexpr float thinnest_m = 0.12f, trunk_m = 2.0f, captured_trunk_m = 0.2f;  // half of breadths; a height
+  for (const vegetation::ScenePlant& plant : vegetation::scene_plants(scene)) {
+    const vegetation::PlantKind& kind = plant.shape->kind();
+    if (!plant.is_visible || kind.habit == vegetation::Habit::sward) continue;
+    const float trunk = std::max(thinnest_m, kind.trunk_share * plant.shape->recipe.height_m);
+    const Bounds box = kind.habit == vegetation::Habit::hedge
+                           ? plant.shape->bounds
+                           : Bounds{{-trunk, -trunk, 0.0f}, {trunk, trunk, trunk_m}};
+    add_box(plant.world_from_plant, box.min, box.max, centre, radius_m, ground);
+  }
+  for (const trees::SceneTree& tree : trees::scene_trees(scene)) {
+    if (!tree.is_visible) continue;
+    const glm::vec3 foot(tree.world_from_tree * glm::vec4(tree.tree->foot, 1.0f));
+    add_box(glm::translate(glm::mat4(1.0f), foot), {-captured_trunk_m, -captured_trunk_m, 0.0f},
+            {captured_trunk_m, captured_trunk_m, trunk_m}, centre, radius_m, ground);
   }
 }
 
@@ -114,6 +152,7 @@ WalkingGround ground_of(const scene::Scene& scene, glm::vec2 centre, float radiu
   for (const scene::Object& object : scene.objects)
     if (!object.is_dynamic && object.is_visible && object.model && !scene::surrounds_place(scene, object))
       add_triangles(object, centre, radius_m, ground);
+  add_plants(scene, centre, radius_m, ground);
   for (const scene::Lane& lane : scene.roads.lanes) add_lane(lane, centre, radius_m, ground);
   for (const scene::StreetCrossing& crossing : scene::street_crossings(scene)) {
     const glm::vec3 across = glm::normalize(crossing.b - crossing.a) * to_kerb_m;

@@ -6,7 +6,8 @@
 
 namespace parvis::crowd {
 
-/// The triangles of the scene's static, visible objects within `radius_m` of `centre` in plan, its lanes
+/// The triangles of the scene's static, visible objects within `radius_m` of `centre` in plan, its trunks and
+/// hedges as boxes, its lanes
 /// and what materials call a road as roads, and the crossings of its streets. What surrounds the place
 /// (scene::surrounds_place) does not count, nor what lies below ground.
 WalkingGround ground_of(const scene::Scene& scene, glm::vec2 centre, float radius_m);
